@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <utility>
 
 namespace touchstone {
 
@@ -18,9 +19,11 @@ class Dyadic {
   explicit Dyadic(int value) : mantissa_(value) {}
 
   int sign() const { return mantissa_.sign(); }
-  // The nearest double up to one unit in the last place; infinite or zero beyond a double's range.
+  // The nearest double, ties to even, denormal ones included, whatever the rounding mode; infinite
+  // beyond a double's range.
   double ToDouble() const;
-  // value = ToDouble(exponent) * 2^*exponent with 0.5 <= |ToDouble| < 1, or 0: never out of range.
+  // Returns f with value = f * 2^*exponent up to one rounding of f to nearest, 0.5 <= |f| < 1, or 0
+  // for 0: never out of range.
   double ToScaledDouble(int* exponent) const;
 
   friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
@@ -28,16 +31,22 @@ class Dyadic {
   friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
   Dyadic operator-() const;
 
+  friend double RatioToDouble(const Dyadic& a, const Dyadic& b);
+
  private:
   // Up to 1024 bits live in place: degree-six polynomials of doubles of similar size do not allocate.
   using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
       1024, 0, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked,
       std::allocator<boost::multiprecision::limb_type>>>;
+  Dyadic(Integer mantissa, int exponent) : mantissa_(std::move(mantissa)), exponent_(exponent) {}
+  // a + b, or a - b
+  static Dyadic Sum(const Dyadic& a, const Dyadic& b, bool subtract);
+
   Integer mantissa_ = 0;
   int exponent_ = 0;
 };
 
-// a / b to within two units in the last place; b not zero. Infinite or zero beyond a double's range.
+// The double nearest to a / b, as Dyadic::ToDouble; b not zero.
 double RatioToDouble(const Dyadic& a, const Dyadic& b);
 
 using DyadicVector = std::array<Dyadic, 3>;

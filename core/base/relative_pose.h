@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <utility>
 
 #include "touchstone/core/base/status.h"
 
@@ -27,12 +28,13 @@ class RelativePose {
   RelativePose() = default;  // the identity
 
   // Returns the pose, or a status: kNonFinite, kOutOfRange (an entry of t above 1e100) or
-  // kBadRotation (det R <= 0, or an entry of RᵀR - I above 1e-6), naming the row.
+  // kBadRotation (det R <= 0, or an entry of RᵀR - I above 1e-6), naming the row (of RᵀR there).
+  // A pose passes or fails by the exact value of its entries.
   static StatusOr<RelativePose> Make(const Eigen::Matrix3d& rotation,
                                      const Eigen::Vector3d& translation);
 
   // Q's placement in P's frame from the placements of both in the world. Same errors as `Make`, for
-  // either pose.
+  // either pose and for the relative translation.
   static StatusOr<RelativePose> FromWorld(const WorldPose& p, const WorldPose& q);
 
   const Eigen::Matrix3d& rotation() const { return rotation_; }
