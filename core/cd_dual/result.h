@@ -130,7 +130,7 @@ struct PhaseReport {
 };
 
 struct PhaseCounts {
-  long faces_visited = 0;  // signed distances evaluated
+  long faces_visited = 0;  // signed distances evaluated; for a portal search, triangles
   long support_calls = 0;
   long climb_steps = 0;
   long arc_tests = 0;
@@ -143,6 +143,7 @@ enum class Termination {
   kUndecided,       // kFloat: the bounds did not decide
 };
 
+// One face visited. The portal searches visit triangles, which are not faces, and leave no trace.
 struct TraceStep {
   Phase phase;
   FaceClass face_class;
@@ -171,6 +172,9 @@ struct CollideResult {
   double exit_point_error = 0.0;                     // bound on its distance from the exact point
 
   Certificate certificate;
+
+  // How many signs doubles left open and big numbers settled.
+  long exact_signs = 0;
 
   // SEARCH-FV, SEARCH-VF, SEARCH-EE; kPortal reports only the class of its final face.
   std::array<PhaseReport, 3> phases;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// Proofs: a search proposes, these functions prove or decline. None of them searches.
+#ifndef TOUCHSTONE_CORE_CD_DUAL_CERTIFY_H_
+#define TOUCHSTONE_CORE_CD_DUAL_CERTIFY_H_
+
+#include <optional>
+
+#include "touchstone/core/cd_dual/result.h"
+#include "touchstone/core/cd_dual/signs.h"
+
+namespace touchstone {
+
+// Proves that the whole of M lies strictly on the negative side of `direction` (P's frame, taken
+// exactly), so that the bodies are separate. `support` is the vertex of M proposed as extreme.
+//
+// First locally: `support` is on the negative side, and on each body no neighbour of its vertex lies
+// further along. A convex body lies in the cone of a vertex's edges, so a local maximum is a global
+// one, and the test costs the vertex's degree. Where a neighbour is too close to tell, every vertex is
+// compared with the plain bound. Returns the tier that proved it, or nothing; doubles only.
+std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d& direction,
+                                             VertexPair support);
+
+// Proves o = l0 c + sum li vi with l0 > 0, li >= 0 over the points of `triangle`, counterclockwise
+// from outside. Returns kBound or kExact for the arithmetic that was needed; nothing if it is not so
+// or (kFloat) cannot be told.
+std::optional<Tier> ProveEnclosingTetrahedron(Signs* signs,
+                                              const std::array<VertexPair, 3>& triangle);
+
+// Proves that the ray from c through o crosses the closed triangle, that the triangle is not flat,
+// and that its plane supports M; and finds the facet's class and features by the exact dimensions of
+// the two supporting features. Nothing if one of these is not so or (kFloat) cannot be told.
+std::optional<ExitFace> ProveExitFace(Signs* signs, const std::array<VertexPair, 3>& triangle);
+
+// The feature of one body that is extreme along the outward normal of `plane`, given a vertex of the
+// body that one of the plane's points uses; nothing when the vertex is not extreme, or (kFloat) when
+// a tie cannot be told.
+std::optional<Feature> SupportingFeature(Signs* signs, FacetPlane* plane, Body body, int vertex);
+
+FaceClass ClassOf(FeatureKind in_p, FeatureKind in_q);
+
+}  // namespace touchstone
+
+#endif  // TOUCHSTONE_CORE_CD_DUAL_CERTIFY_H_
