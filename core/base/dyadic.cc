@@ -10,9 +10,9 @@
 namespace touchstone {
 namespace {
 
-constexpr int kDigits = 53;             // of a double's significand
-constexpr int kLeastExponent = -1074;   // of the last place of a denormal
-constexpr int kGreatestExponent = 1024; // every finite double is below 2^1024
+constexpr int kDigits = 53;              // of a double's significand
+constexpr int kLeastExponent = -1074;    // of the last place of a denormal
+constexpr int kGreatestExponent = 1024;  // every finite double is below 2^1024
 constexpr std::uint64_t kHiddenBit = std::uint64_t{1} << 52;
 
 // The leading bits of a positive integer: value = (bits + something in [0, 1)) * 2^shift, that
@@ -40,8 +40,9 @@ std::uint64_t RoundShift(std::uint64_t bits, int drop, bool sticky) {
   return kept + (up ? 1 : 0);
 }
 
-// The double nearest to (bits + [sticky]) * 2^exponent, put together from its bit pattern so that no
-// rounding mode and no flush-to-zero has a say. Requires all 53 digits to be in `bits` if `sticky`.
+// The double nearest to (bits + [sticky]) * 2^exponent, put together from its bit pattern so that
+// no rounding mode and no flush-to-zero has a say. Requires all 53 digits to be in `bits` if
+// `sticky`.
 double Assemble(std::uint64_t bits, int exponent, bool sticky, bool negative) {
   const std::uint64_t sign = negative ? std::uint64_t{1} << 63 : 0;
   const int length = 64 - std::countl_zero(bits);
@@ -137,7 +138,8 @@ double RatioToDouble(const Dyadic& a, const Dyadic& b) {
   Integer numerator = abs(a.mantissa_);
   const Integer denominator = abs(b.mantissa_);
   // At least 64 bits of quotient, and whether anything remains, decide the rounding to 53.
-  const int shift = std::max(0, 65 + static_cast<int>(msb(denominator)) - static_cast<int>(msb(numerator)));
+  const int shift =
+      std::max(0, 65 + static_cast<int>(msb(denominator)) - static_cast<int>(msb(numerator)));
   numerator <<= shift;
   Integer quotient, remainder;
   divide_qr(numerator, denominator, quotient, remainder);

@@ -34,7 +34,8 @@ class Dyadic {
   friend double RatioToDouble(const Dyadic& a, const Dyadic& b);
 
  private:
-  // Up to 1024 bits live in place: degree-six polynomials of doubles of similar size do not allocate.
+  // Up to 1024 bits live in place: degree-six polynomials of doubles of similar size do not
+  // allocate.
   using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
       1024, 0, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked,
       std::allocator<boost::multiprecision::limb_type>>>;

@@ -83,9 +83,9 @@ Eigen::Matrix3d Inverse(const Eigen::Matrix3d& r) {
 // Error of the relative pose R = Rp^-1 Rq, t = Rp^-1 (tq - tp) as FromWorld computes it, in units
 // u = 2^-52. Every entry of RᵀR is within 1e-6 of the identity's, so ‖RᵀR - I‖ <= 3e-6, and rows
 // and columns of R, of its cofactors and of R^-1 have lengths below k = 1 + 1e-5, as has 1/det.
-// Below, sums of products |a||b| along rows are at most k^2 by Cauchy-Schwarz, and sums of the three
-// entries of a row at most sqrt(3) k; k's powers and second-order terms are covered by rounding the
-// constants up.
+// Below, sums of products |a||b| along rows are at most k^2 by Cauchy-Schwarz, and sums of the
+// three entries of a row at most sqrt(3) k; k's powers and second-order terms are covered by
+// rounding the constants up.
 //   cofactor   two products and a difference               2 u
 //   det        sqrt(3) * 2 u + three roundings             6.5 u
 //   inverse    2 u + 6.5 u + the division's                9.6 u

@@ -19,10 +19,10 @@ struct WorldPose {
 // The placement of Q in P's frame: x_p = R x_q + t.
 //
 // The matrix and the vector are taken at their word: Q *is* the exact affine image of its vertices
-// under these doubles, so a rotation that is off orthonormal by an ulp still asks an exact question.
-// A pose made from two world poses keeps both, and the truth is then that of both exact images; the
-// rounded R and t serve the floating-point search, with their distance from the exact relative pose
-// in `rotation_error` and `translation_error`.
+// under these doubles, so a rotation that is off orthonormal by an ulp still asks an exact
+// question. A pose made from two world poses keeps both, and the truth is then that of both exact
+// images; the rounded R and t serve the floating-point search, with their distance from the exact
+// relative pose in `rotation_error` and `translation_error`.
 class RelativePose {
  public:
   RelativePose() = default;  // the identity

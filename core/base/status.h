@@ -13,22 +13,22 @@ namespace touchstone {
 // What is wrong with data that a builder refused. Each code names one defect.
 enum class StatusCode {
   kOk,
-  kNonFinite,                // a coordinate is NaN or infinite
-  kOutOfRange,               // a magnitude outside [1e-100, 1e100] for the body, or above for a pose
-  kTooFewVertices,           // fewer than four vertices
-  kTooFewFaces,              // fewer than four faces
-  kBadIndex,                 // a face names a vertex that does not exist
-  kDegenerateFace,           // fewer than three vertices, a repeated vertex, or all collinear
-  kUnreferencedVertex,       // a vertex that no face uses
-  kDuplicateVertex,          // two vertices with equal coordinates
-  kOpen,                     // an edge with one face
-  kNonManifold,              // an edge with more than two faces, a pinched vertex, two components
+  kNonFinite,           // a coordinate is NaN or infinite
+  kOutOfRange,          // a magnitude outside [1e-100, 1e100] for the body, or above for a pose
+  kTooFewVertices,      // fewer than four vertices
+  kTooFewFaces,         // fewer than four faces
+  kBadIndex,            // a face names a vertex that does not exist
+  kDegenerateFace,      // fewer than three vertices, a repeated vertex, or all collinear
+  kUnreferencedVertex,  // a vertex that no face uses
+  kDuplicateVertex,     // two vertices with equal coordinates
+  kOpen,                // an edge with one face
+  kNonManifold,         // an edge with more than two faces, a pinched vertex, two components
   kInconsistentOrientation,  // an edge run twice in the same sense, or all faces inward
   kNonPlanarFace,            // a vertex of a face off its plane, by exact signs
   kNotConvex,                // a vertex strictly beyond a face's plane, or a face not convex
   kFlat,                     // all vertices in one plane
   kNoInteriorPoint,          // so thin that no triple of doubles was proven strictly inside
-  kBadRotation,              // determinant not positive, or RᵀR off the identity by more than 1e-6
+  kBadRotation,  // determinant not positive, or RᵀR off the identity by more than 1e-6
 };
 
 // The kind of element that `Status::index` counts.
@@ -60,8 +60,14 @@ class StatusOr {
 
   bool ok() const { return value_.has_value(); }
   const Status& status() const { return status_; }
-  const T& value() const& { assert(ok()); return *value_; }
-  T&& value() && { assert(ok()); return *std::move(value_); }
+  const T& value() const& {
+    assert(ok());
+    return *value_;
+  }
+  T&& value() && {
+    assert(ok());
+    return *std::move(value_);
+  }
   const T& operator*() const& { return value(); }
   const T* operator->() const { return &value(); }
 

@@ -10,15 +10,9 @@
 #include <vector>
 
 #include "touchstone/core/base/status.h"
+#include "touchstone/core/convex/convex_polyhedron_data.h"
 
 namespace touchstone {
-
-// An edge, run from `tail` to `head`: `left` lies on its left seen from outside (the face whose loop
-// runs tail -> head), `right` on its right.
-struct Edge {
-  int tail, head;
-  int left, right;
-};
 
 // A full-dimensional convex polyhedron: a closed set, in the body's own frame.
 //
@@ -36,30 +30,41 @@ class ConvexPolyhedron {
   static StatusOr<ConvexPolyhedron> Build(std::span<const Eigen::Vector3d> vertices,
                                           std::span<const std::vector<int>> faces);
 
-  int vertex_count() const { return static_cast<int>(data_->vertices.size()); }
-  int face_count() const { return static_cast<int>(data_->face_begin.size()) - 1; }
-  int edge_count() const { return static_cast<int>(data_->edges.size()); }
+  int vertex_count() const { return data_->vertex_count(); }
+  int face_count() const { return data_->face_count(); }
+  int edge_count() const { return data_->edge_count(); }
 
   std::span<const Eigen::Vector3d> vertices() const { return data_->vertices; }
   const Eigen::Vector3d& vertex(int v) const { return data_->vertices[v]; }
   const Edge& edge(int e) const { return data_->edges[e]; }
 
   // The loop of face f, counterclockwise from outside, as it was given.
-  std::span<const int> face(int f) const { return Range(data_->face_vertices, data_->face_begin, f); }
+  std::span<const int> face(int f) const {
+    return Range(data_->face_vertices, data_->face_begin, f);
+  }
   // Edge k of face f joins face(f)[k] to the next vertex of the loop.
-  std::span<const int> face_edges(int f) const { return Range(data_->face_edges, data_->face_begin, f); }
-  // Three vertices of face f that are not collinear, counterclockwise from outside: its exact plane.
+  std::span<const int> face_edges(int f) const {
+    return Range(data_->face_edges, data_->face_begin, f);
+  }
+  // Three vertices of face f that are not collinear, counterclockwise from outside: its exact
+  // plane.
   const std::array<int, 3>& face_plane(int f) const { return data_->face_planes[f]; }
-  // The exterior normal of face f: of unit length, up to rounding.
+  // The exterior normal of face f: of unit length, each entry within 2^-46 of the exact one's.
   const Eigen::Vector3d& face_normal(int f) const { return data_->face_normals[f]; }
   // Faces in one plane share a number, the smallest of their indices.
   int facet_of_face(int f) const { return data_->facet_of_face[f]; }
 
   // What meets at vertex v, counterclockwise seen from outside; the three lists run in step:
   // edge k joins v to neighbour k, face k lies between edges k and k + 1.
-  std::span<const int> vertex_neighbors(int v) const { return Range(data_->vertex_neighbors, data_->vertex_begin, v); }
-  std::span<const int> vertex_edges(int v) const { return Range(data_->vertex_edges, data_->vertex_begin, v); }
-  std::span<const int> vertex_faces(int v) const { return Range(data_->vertex_faces, data_->vertex_begin, v); }
+  std::span<const int> vertex_neighbors(int v) const {
+    return Range(data_->vertex_neighbors, data_->vertex_begin, v);
+  }
+  std::span<const int> vertex_edges(int v) const {
+    return Range(data_->vertex_edges, data_->vertex_begin, v);
+  }
+  std::span<const int> vertex_faces(int v) const {
+    return Range(data_->vertex_faces, data_->vertex_begin, v);
+  }
 
   // The face across edge e from face f.
   int face_across(int e, int f) const { return edge(e).left == f ? edge(e).right : edge(e).left; }
@@ -76,27 +81,15 @@ class ConvexPolyhedron {
   Status FindValidationError() const;
 
  private:
-  struct Data {
-    std::vector<Eigen::Vector3d> vertices;
-    std::vector<int> face_begin, face_vertices, face_edges;  // face f: [face_begin[f], face_begin[f + 1])
-    std::vector<std::array<int, 3>> face_planes;
-    std::vector<Eigen::Vector3d> face_normals;
-    std::vector<int> facet_of_face;
-    std::vector<Edge> edges;
-    std::vector<int> vertex_begin, vertex_neighbors, vertex_edges, vertex_faces;
-    std::array<Eigen::Vector3d, 2> interior;
-    double max_coordinate = 0.0;
-    double diameter_bound = 0.0;
-  };
-  friend class ConvexPolyhedronBuilder;
+  explicit ConvexPolyhedron(std::shared_ptr<const ConvexPolyhedronData> data)
+      : data_(std::move(data)) {}
 
-  explicit ConvexPolyhedron(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
-
-  static std::span<const int> Range(const std::vector<int>& items, const std::vector<int>& begin, int i) {
+  static std::span<const int> Range(const std::vector<int>& items, const std::vector<int>& begin,
+                                    int i) {
     return {items.data() + begin[i], items.data() + begin[i + 1]};
   }
 
-  std::shared_ptr<const Data> data_;
+  std::shared_ptr<const ConvexPolyhedronData> data_;
 };
 
 }  // namespace touchstone

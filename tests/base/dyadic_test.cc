@@ -26,9 +26,23 @@ double AnyDouble(testing::Random& random) {
 }
 
 std::vector<double> SpecialDoubles() {
-  return {0.0, -0.0, 1.0, -1.0, 0.1, 1e-100, 1e100, 1e300, Limits::max(), -Limits::max(),
-          Limits::min(), -Limits::min(), Limits::denorm_min(), -Limits::denorm_min(),
-          3 * Limits::denorm_min(), std::nextafter(Limits::min(), 0.0), 1 + Limits::epsilon()};
+  return {0.0,
+          -0.0,
+          1.0,
+          -1.0,
+          0.1,
+          1e-100,
+          1e100,
+          1e300,
+          Limits::max(),
+          -Limits::max(),
+          Limits::min(),
+          -Limits::min(),
+          Limits::denorm_min(),
+          -Limits::denorm_min(),
+          3 * Limits::denorm_min(),
+          std::nextafter(Limits::min(), 0.0),
+          1 + Limits::epsilon()};
 }
 
 TEST(Dyadic, EveryDoubleComesBackUnchanged) {

@@ -160,7 +160,8 @@ TEST(RelativePose, FromWorldRefusesWhatMakeRefuses) {
   WorldPose left, right;
   left.translation[0] = -1e100;
   right.translation[0] = 1e100;
-  ExpectFailure(RelativePose::FromWorld(left, right), StatusCode::kOutOfRange, ElementKind::kRow, 0);
+  ExpectFailure(RelativePose::FromWorld(left, right), StatusCode::kOutOfRange, ElementKind::kRow,
+                0);
 }
 
 }  // namespace

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "touchstone/core/convex/convex_polyhedron.h"
+#include "touchstone/core/convex/convexity_internal.h"
+#include "touchstone/core/convex/face_planes_internal.h"
+#include "touchstone/core/convex/interior_points_internal.h"
+#include "touchstone/core/convex/orientation_internal.h"
+#include "touchstone/core/convex/topology_internal.h"
+
+namespace touchstone {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kMinSize = 1e-100;
+constexpr double kMaxSize = 1e100;
+constexpr std::size_t kMaxIndices = std::size_t{1} << 30;  // of loops together: indices are int
+
+Status CheckVertices(std::span<const Vector3d> vertices) {
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (!vertices[v].allFinite()) {
+      return {StatusCode::kNonFinite, ElementKind::kVertex, static_cast<int>(v), -1,
+              "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
+    }
+  }
+  if (vertices.size() < 4) {
+    return {StatusCode::kTooFewVertices, ElementKind::kNone, -1, -1,
+            "a body has four vertices at least, not " + std::to_string(vertices.size())};
+  }
+  double largest = 0.0;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const double size = vertices[v].cwiseAbs().maxCoeff();
+    largest = std::max(largest, size);
+    if (size > kMaxSize) {
+      return {StatusCode::kOutOfRange, ElementKind::kVertex, static_cast<int>(v), -1,
+              "vertex " + std::to_string(v) + " has a coordinate above 1e100"};
+    }
+  }
+  if (largest < kMinSize) {
+    return {StatusCode::kOutOfRange, ElementKind::kNone, -1, -1,
+            "all coordinates are below 1e-100: scale the body"};
+  }
+  return {};
+}
+
+Status CheckLoops(std::span<const std::vector<int>> faces, int vertex_count) {
+  if (faces.size() < 4) {
+    return {StatusCode::kTooFewFaces, ElementKind::kNone, -1, -1,
+            "a body has four faces at least, not " + std::to_string(faces.size())};
+  }
+  std::size_t index_count = 0;
+  std::vector<int> last_face(vertex_count, -1);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const int f = static_cast<int>(i);
+    const std::string name = "face " + std::to_string(f);
+    index_count += faces[i].size();
+    if (index_count > kMaxIndices) {
+      return {StatusCode::kOutOfRange, ElementKind::kFace, f, -1, "more than 2^30 indices"};
+    }
+    for (int v : faces[i]) {
+      if (v < 0 || v >= vertex_count) {
+        return {
+            StatusCode::kBadIndex, ElementKind::kFace, f, v,
+            name + " names vertex " + std::to_string(v) + " of " + std::to_string(vertex_count)};
+      }
+      if (last_face[v] == f) {
+        return {StatusCode::kDegenerateFace, ElementKind::kFace, f, v,
+                name + " names vertex " + std::to_string(v) + " twice"};
+      }
+      last_face[v] = f;
+    }
+    if (faces[i].size() < 3) {
+      return {StatusCode::kDegenerateFace, ElementKind::kFace, f, -1,
+              name + " has fewer than three vertices"};
+    }
+  }
+  const auto unused = std::find(last_face.begin(), last_face.end(), -1);
+  if (unused != last_face.end()) {
+    const int v = static_cast<int>(unused - last_face.begin());
+    return {StatusCode::kUnreferencedVertex, ElementKind::kVertex, v, -1,
+            "no face uses vertex " + std::to_string(v)};
+  }
+  return {};
+}
+
+Status CheckDistinct(std::span<const Vector3d> vertices) {
+  std::vector<int> order(vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int v, int w) {
+    for (int i = 0; i < 3; ++i) {
+      if (vertices[v][i] != vertices[w][i]) return vertices[v][i] < vertices[w][i];
+    }
+    return v < w;
+  });
+  std::pair<int, int> first(-1, -1);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const int v = order[i - 1], w = order[i];
+    if (vertices[v] == vertices[w] && (first.first < 0 || v < first.first)) first = {v, w};
+  }
+  if (first.first < 0) return {};
+  return {StatusCode::kDuplicateVertex, ElementKind::kVertex, first.first, first.second,
+          "vertices " + std::to_string(first.first) + " and " + std::to_string(first.second) +
+              " are equal"};
+}
+
+// The diagonal of the bounding box: no side of the box exceeds the diameter, so it is at most
+// sqrt(3) times that. A body of full dimension and size 1e-100 or more has a side of 1e-117 or
+// more, whose square does not underflow; 12 units cover the roundings.
+double DiameterBound(std::span<const Vector3d> vertices) {
+  Vector3d low = vertices[0], high = vertices[0];
+  for (const Vector3d& vertex : vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  const Vector3d side = high - low;
+  const double squared = side[0] * side[0] + side[1] * side[1] + side[2] * side[2];
+  return std::sqrt(squared) * (1.0 + 12 * 0x1p-52);
+}
+
+}  // namespace
+
+StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> vertices,
+                                                   std::span<const std::vector<int>> faces) {
+  if (Status status = CheckVertices(vertices); !status.ok()) return status;
+  const int vertex_count = static_cast<int>(vertices.size());
+  if (Status status = CheckLoops(faces, vertex_count); !status.ok()) return status;
+  if (Status status = CheckDistinct(vertices); !status.ok()) return status;
+
+  auto data = std::make_shared<ConvexPolyhedronData>();
+  data->vertices.assign(vertices.begin(), vertices.end());
+  data->face_begin.push_back(0);
+  for (const std::vector<int>& loop : faces) {
+    data->face_vertices.insert(data->face_vertices.end(), loop.begin(), loop.end());
+    data->face_begin.push_back(static_cast<int>(data->face_vertices.size()));
+  }
+  for (const Vector3d& vertex : vertices) {
+    data->max_coordinate = std::max(data->max_coordinate, vertex.cwiseAbs().maxCoeff());
+  }
+  data->diameter_bound = DiameterBound(vertices);
+
+  if (Status status = internal::BuildTopology(data.get()); !status.ok()) return status;
+  const internal::Orientation orientation(data->vertices, data->max_coordinate);
+  if (Status status = internal::CheckFullDimensional(orientation, *data); !status.ok()) {
+    return status;
+  }
+  std::vector<internal::FaceAxis> axes;
+  if (Status status = internal::BuildFacePlanes(orientation, data.get(), &axes); !status.ok()) {
+    return status;
+  }
+  if (Status status = internal::CheckLocalConvexity(orientation, axes, data.get()); !status.ok()) {
+    return status;
+  }
+  if (Status status = internal::FindInteriorPoints(orientation, data.get()); !status.ok()) {
+    return status;
+  }
+  const internal::ScaledPoint o = orientation.Scale(data->interior[0]);
+  if (Status status = internal::CheckSingleWinding(orientation, *data, o); !status.ok()) {
+    return status;
+  }
+  ConvexPolyhedron body(std::move(data));
+  assert(body.FindValidationError().ok());
+  return body;
+}
+
+}  // namespace touchstone
