@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/cd_dual/face_of_m.h"
 
+#include <Eigen/Geometry>
 namespace touchstone {
 
 double SignedDistance(const MinkowskiDifference& m, const Eigen::Vector3d& normal, double k) {

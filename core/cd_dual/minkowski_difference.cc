@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/cd_dual/minkowski_difference.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

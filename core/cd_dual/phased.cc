@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/cd_dual/phased.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "touchstone/core/cd_dual/edge_edge.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/cd_dual/signs.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace touchstone {
