@@ -28,16 +28,18 @@ class Query {
     if (options_.early_exit && options_.search != Search::kPublished && FindCoincidence()) {
       return Finish();
     }
-    switch (options_.search) {
-      case Search::kPublished:
-        RunPublished();
-        break;
-      case Search::kPhased:
-        RunPhased();
-        break;
-      case Search::kPortal:
-        RunPortal();
-        break;
+    if (options_.search == Search::kPublished) {
+      RunPublished();
+      return Finish();
+    }
+    RunProven();
+    // In doubles, a ray through an edge of M leaves signs open that another ray may not meet.
+    const int chosen_p = m_.interior_p(), chosen_q = m_.interior_q();
+    for (int k = 1; k < 4 && result_.verdict == Verdict::kUndecided; ++k) {
+      m_.ChooseInterior((chosen_p + k) % 2, (chosen_q + k / 2) % 2);
+      if (m_.c_norm() <= m_.coordinate_error()) continue;
+      result_ = CollideResult{};
+      RunProven();
     }
     return Finish();
   }
@@ -76,6 +78,8 @@ class Query {
     m_.ChooseInterior(chosen_p, chosen_q);
     return false;
   }
+
+  void RunProven() { options_.search == Search::kPhased ? RunPhased() : RunPortal(); }
 
   void RunPortal() {
     result_.phase = Phase::kPortal;

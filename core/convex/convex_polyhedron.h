@@ -72,6 +72,10 @@ class ConvexPolyhedron {
   // Two distinct points, proven strictly interior by exact signs: 0 near the middle, 1 off it.
   const Eigen::Vector3d& interior_point(int i) const { return data_->interior[i]; }
 
+  // Three times the covariance of the vertices: sqrt(n.Cn) is about how far the body reaches along a
+  // unit n from its middle, exact for points spread over a sphere. A guide for searches, no bound.
+  const Eigen::Matrix3d& second_moments() const { return data_->second_moments; }
+
   // max over vertices of the largest absolute coordinate: the size that error bounds refer to.
   double max_coordinate() const { return data_->max_coordinate; }
   // At least the distance between any two points of the body, and less than twice that.

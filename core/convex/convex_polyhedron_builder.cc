@@ -61,26 +61,26 @@ Status CheckLoops(std::span<const std::vector<int>> faces, int vertex_count) {
   std::vector<int> last_face(vertex_count, -1);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const int f = static_cast<int>(i);
-    const std::string name = "face " + std::to_string(f);
+    const auto fail = [f](StatusCode code, int other, const std::string& what) {
+      return Status{code, ElementKind::kFace, f, other, "face " + std::to_string(f) + what};
+    };
     index_count += faces[i].size();
     if (index_count > kMaxIndices) {
-      return {StatusCode::kOutOfRange, ElementKind::kFace, f, -1, "more than 2^30 indices"};
+      return fail(StatusCode::kOutOfRange, -1, " and those before have more than 2^30 vertices");
     }
     for (int v : faces[i]) {
       if (v < 0 || v >= vertex_count) {
-        return {
-            StatusCode::kBadIndex, ElementKind::kFace, f, v,
-            name + " names vertex " + std::to_string(v) + " of " + std::to_string(vertex_count)};
+        return fail(StatusCode::kBadIndex, v,
+                    " names vertex " + std::to_string(v) + " of " + std::to_string(vertex_count));
       }
       if (last_face[v] == f) {
-        return {StatusCode::kDegenerateFace, ElementKind::kFace, f, v,
-                name + " names vertex " + std::to_string(v) + " twice"};
+        return fail(StatusCode::kDegenerateFace, v,
+                    " names vertex " + std::to_string(v) + " twice");
       }
       last_face[v] = f;
     }
     if (faces[i].size() < 3) {
-      return {StatusCode::kDegenerateFace, ElementKind::kFace, f, -1,
-              name + " has fewer than three vertices"};
+      return fail(StatusCode::kDegenerateFace, -1, " has fewer than three vertices");
     }
   }
   const auto unused = std::find(last_face.begin(), last_face.end(), -1);
@@ -126,6 +126,19 @@ double DiameterBound(std::span<const Vector3d> vertices) {
   return std::sqrt(squared) * (1.0 + 12 * 0x1p-52);
 }
 
+// Three times the covariance. Divided by the count as it goes: no sum leaves the range of a double.
+Eigen::Matrix3d SecondMoments(std::span<const Vector3d> vertices) {
+  const double share = 1.0 / static_cast<double>(vertices.size());
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& vertex : vertices) mean += share * vertex;
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const Vector3d& vertex : vertices) {
+    const Vector3d x = vertex - mean;
+    moments += (3.0 * share * x) * x.transpose();
+  }
+  return moments;
+}
+
 }  // namespace
 
 StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> vertices,
@@ -146,6 +159,7 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
     data->max_coordinate = std::max(data->max_coordinate, vertex.cwiseAbs().maxCoeff());
   }
   data->diameter_bound = DiameterBound(vertices);
+  data->second_moments = SecondMoments(vertices);
 
   if (Status status = internal::BuildTopology(data.get()); !status.ok()) return status;
   const internal::Orientation orientation(data->vertices, data->max_coordinate);

@@ -26,6 +26,7 @@ struct ConvexPolyhedronData {
   std::vector<Edge> edges;
   std::vector<int> vertex_begin, vertex_neighbors, vertex_edges, vertex_faces;
   std::array<Eigen::Vector3d, 2> interior;
+  Eigen::Matrix3d second_moments = Eigen::Matrix3d::Zero();
   double max_coordinate = 0.0;
   double diameter_bound = 0.0;
 
