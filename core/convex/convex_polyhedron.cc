@@ -2,6 +2,7 @@
 #include "touchstone/core/convex/convex_polyhedron.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -71,8 +72,10 @@ Status CheckRings(const ConvexPolyhedron& body) {
 // Planes, bends at edges, facets and normals.
 Status CheckPlanes(const ConvexPolyhedron& body, const internal::Orientation& orientation) {
   for (int f = 0; f < body.face_count(); ++f) {
+    const std::array<int, 3>& plane = body.face_plane(f);
     for (int v : body.face(f)) {
-      if (orientation.ExactSide(body.face_plane(f), v) != 0) {
+      if (v == plane[0] || v == plane[1] || v == plane[2]) continue;
+      if (orientation.ExactSide(plane, v) != 0) {
         return Fail(StatusCode::kNonPlanarFace, ElementKind::kFace, f, " is not planar");
       }
     }
@@ -83,7 +86,8 @@ Status CheckPlanes(const ConvexPolyhedron& body, const internal::Orientation& or
   for (int e = 0; e < body.edge_count(); ++e) {
     const Edge& edge = body.edge(e);
     int side = 0;
-    for (int v : body.face(edge.right)) {
+    for (int v : body.face_plane(edge.right)) {
+      if (v == edge.tail || v == edge.head) continue;
       const int s = orientation.ExactSide(body.face_plane(edge.left), v);
       if (s > 0) return Fail(StatusCode::kNotConvex, ElementKind::kFace, edge.left, ": not convex");
       side = std::min(side, s);

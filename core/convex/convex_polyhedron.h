@@ -69,7 +69,8 @@ class ConvexPolyhedron {
   // The face across edge e from face f.
   int face_across(int e, int f) const { return edge(e).left == f ? edge(e).right : edge(e).left; }
 
-  // Two distinct points, proven strictly interior by exact signs: 0 near the middle, 1 off it.
+  // Two distinct points, proven strictly interior by exact signs: 0 near the middle, 1 off it, both off its
+  // symmetries.
   const Eigen::Vector3d& interior_point(int i) const { return data_->interior[i]; }
 
   // Three times the covariance of the vertices: sqrt(n.Cn) is about how far the body reaches along a

@@ -90,8 +90,24 @@ std::vector<int> SpreadVertices(const Orientation& orientation, const ConvexPoly
   return chosen;
 }
 
+// A point off `from` towards three of the vertices by unequal parts: on none of the axes, diagonals and
+// mid-planes that symmetrical bodies have. Rays between such points seldom meet an edge or a vertex
+// of M, where signs vanish and doubles cannot decide.
+Vector3d OffSymmetry(const ConvexPolyhedronData& data, const Vector3d& from,
+                     const std::vector<int>& spread, std::size_t k, double fraction) {
+  static constexpr std::array<double, 3> kParts = {1.0, 0.59, 0.37};
+  Vector3d point = from;
+  for (std::size_t i = 0; i < kParts.size(); ++i) {
+    const int v = spread[(k + i) % spread.size()];
+    point += fraction * kParts[i] * (data.vertices[v] - from);
+  }
+  return point;
+}
+
 std::optional<Vector3d> FindFirst(InteriorSearch& search, const ConvexPolyhedronData& data,
                                   const Vector3d& mean, const std::vector<int>& spread) {
+  const Vector3d near_mean = OffSymmetry(data, mean, spread, 0, 1.0 / 32);
+  if (search.IsInside(near_mean)) return near_mean;
   if (search.IsInside(mean)) return mean;
   if (const auto found = search.InsideNear(mean, nullptr)) return found;
   for (int v : spread) {
@@ -103,9 +119,9 @@ std::optional<Vector3d> FindFirst(InteriorSearch& search, const ConvexPolyhedron
 
 std::optional<Vector3d> FindSecond(InteriorSearch& search, const ConvexPolyhedronData& data,
                                    const Vector3d& first, const std::vector<int>& spread) {
-  for (int v : spread) {
-    for (double fraction : {0.25, 0.125, 0.5}) {
-      const Vector3d candidate = first + fraction * (data.vertices[v] - first);
+  for (std::size_t k = 0; k < spread.size(); ++k) {
+    for (double fraction : {0.25, 0.125}) {
+      const Vector3d candidate = OffSymmetry(data, first, spread, k, fraction);
       if (candidate != first && search.IsInside(candidate)) return candidate;
     }
   }

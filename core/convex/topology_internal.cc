@@ -72,6 +72,11 @@ class TopologyBuilder {
 
   // Joins the first and last of `count` half-edges on one pair of vertices.
   Status Pair(int h, int k, int count) {
+    if (count == 2 && Tail(h) != Tail(k)) {
+      twin_[h] = k;
+      twin_[k] = h;
+      return {};
+    }
     const std::string name = "edge " + std::to_string(Tail(h)) + "-" + std::to_string(Head(h));
     if (count == 1) {
       return {StatusCode::kOpen, ElementKind::kEdge, Tail(h), Head(h),
@@ -81,14 +86,9 @@ class TopologyBuilder {
       return {StatusCode::kNonManifold, ElementKind::kEdge, Tail(h), Head(h),
               name + " has " + std::to_string(count) + " faces"};
     }
-    if (Tail(h) == Tail(k)) {
-      return {StatusCode::kInconsistentOrientation, ElementKind::kEdge, Tail(h), Head(h),
-              "faces " + std::to_string(face_of_[h]) + " and " + std::to_string(face_of_[k]) +
-                  " run " + name + " in the same sense"};
-    }
-    twin_[h] = k;
-    twin_[k] = h;
-    return {};
+    return {StatusCode::kInconsistentOrientation, ElementKind::kEdge, Tail(h), Head(h),
+            "faces " + std::to_string(face_of_[h]) + " and " + std::to_string(face_of_[k]) +
+                " run " + name + " in the same sense"};
   }
 
   void NumberEdges() {
