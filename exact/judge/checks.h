@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The judge's checks, one file each, over one context. Each appends what it finds.
+#ifndef TOUCHSTONE_EXACT_JUDGE_CHECKS_H_
+#define TOUCHSTONE_EXACT_JUDGE_CHECKS_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "touchstone/exact/convert.h"
+#include "touchstone/exact/decide.h"
+#include "touchstone/exact/judge.h"
+
+namespace touchstone::exact {
+
+// The plane named by the result's exit face, once it is known to support M at the named triangle.
+struct NamedFace {
+  IntegerVector normal;  // outward
+  Ratio ratio;           // 1 + d |c| = 1/s of its plane
+  bool crossed = false;  // the ray crosses the closed triangle: hence it is the exit face
+};
+
+class JudgeContext {
+ public:
+  JudgeContext(const ExactBody& p, const ExactBody& q, const RelativePose& pose,
+               const CollideResult& judged, const JudgeOptions& how, std::vector<Finding>* findings)
+      : result(judged), options(how),
+        pair(p.data(), q.data(), pose, judged.interior_p, judged.interior_q),
+        p_(p), q_(q), pose_(pose), findings_(findings) {}
+
+  void Add(FindingKind kind, std::string detail) const { findings_->push_back({kind, std::move(detail)}); }
+
+  bool published() const { return options.search == Search::kPublished; }
+  // Both interior points are strictly interior, proven.
+  bool InteriorPointsAreInterior() const {
+    return p_.InteriorPointIsInterior(result.interior_p) && q_.InteriorPointIsInterior(result.interior_q);
+  }
+  // The truth, from scratch; computed when first asked for.
+  const ExactDecision& Decision() const;
+  // 1/s of the true exit: from a face proven to be crossed, or from Decision(). Requires c != o.
+  Ratio ExitRatio() const;
+
+  const CollideResult& result;
+  const JudgeOptions& options;
+  const PlacedPair pair;
+  std::optional<NamedFace> face;
+
+ private:
+  const ExactBody& p_;
+  const ExactBody& q_;
+  const RelativePose& pose_;
+  std::vector<Finding>* findings_;
+  mutable std::optional<ExactDecision> decision_;
+};
+
+// Everything that other checks index with is in range.
+bool CheckIndices(const JudgeContext& context, const ExactBody& p, const ExactBody& q);
+// Check 2. Returns whether the certificate proves the verdict.
+bool CheckCertificate(const JudgeContext& context);
+// Check 1.
+void CheckVerdict(const JudgeContext& context, bool proven);
+// Check 3, and sets context->face; also that the face is the one the ray leaves by (check 5).
+void CheckFace(JudgeContext* context);
+// Check 4.
+void CheckValues(const JudgeContext& context);
+// Check 5: the phases.
+void CheckPhases(const JudgeContext& context);
+// Check 6.
+void CheckCounters(const JudgeContext& context, bool proven);
+// The construction tier.
+void CheckConstruction(const JudgeContext& context);
+
+}  // namespace touchstone::exact
+
+#endif  // TOUCHSTONE_EXACT_JUDGE_CHECKS_H_

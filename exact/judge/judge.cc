@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "touchstone/exact/judge.h"
+
+#include "touchstone/exact/judge/checks.h"
+
+namespace touchstone::exact {
+namespace {
+
+bool InRange(int i, int count) { return i >= 0 && i < count; }
+
+bool PairsInRange(const std::array<VertexPair, 3>& pairs, const ExactBodyData& p,
+                  const ExactBodyData& q) {
+  for (const VertexPair& pair : pairs) {
+    if (!InRange(pair.p, p.vertex_count) || !InRange(pair.q, q.vertex_count)) return false;
+  }
+  return true;
+}
+
+bool FeatureInRange(const Feature& feature, const ExactBodyData& body) {
+  switch (feature.kind) {
+    case FeatureKind::kVertex: return InRange(feature.index, body.vertex_count);
+    case FeatureKind::kEdge:
+      return InRange(feature.index, static_cast<int>(body.topology().edges.size()));
+    case FeatureKind::kFace: return InRange(feature.index, body.face_count);
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view ToString(FindingKind kind) {
+  switch (kind) {
+    case FindingKind::kWrongVerdict: return "wrong_verdict";
+    case FindingKind::kUndecided: return "undecided";
+    case FindingKind::kBadCertificate: return "bad_certificate";
+    case FindingKind::kNotAFace: return "not_a_face";
+    case FindingKind::kWrongClass: return "wrong_class";
+    case FindingKind::kValueOutOfBounds: return "value_out_of_bounds";
+    case FindingKind::kLooseBound: return "loose_bound";
+    case FindingKind::kNotOptimal: return "not_optimal";
+    case FindingKind::kPhaseNotMaximal: return "phase_not_maximal";
+    case FindingKind::kBadCounters: return "bad_counters";
+    case FindingKind::kUnentitledExit: return "unentitled_exit";
+    case FindingKind::kMissingPart: return "missing_part";
+  }
+  return "?";
+}
+
+const ExactDecision& JudgeContext::Decision() const {
+  if (!decision_.has_value()) {
+    decision_ = Decide(p_, q_, pose_, result.interior_p, result.interior_q);
+  }
+  return *decision_;
+}
+
+Ratio JudgeContext::ExitRatio() const {
+  if (face.has_value() && face->crossed) return face->ratio;
+  const mpq_class& s = Decision().exit->parameter;
+  return {s.get_den(), s.get_num()};
+}
+
+bool CheckIndices(const JudgeContext& context, const ExactBody& p, const ExactBody& q) {
+  const CollideResult& result = context.result;
+  if (result.certificate.kind == CertificateKind::kSeparatingFacet ||
+      result.certificate.kind == CertificateKind::kEnclosingTetrahedron ||
+      result.certificate.kind == CertificateKind::kTouchingFacet) {
+    if (!PairsInRange(result.certificate.points, p.data(), q.data())) {
+      context.Add(FindingKind::kBadCertificate, "names a vertex that does not exist");
+      return false;
+    }
+  }
+  if (result.face.has_value() &&
+      (!PairsInRange(result.face->triangle, p.data(), q.data()) ||
+       !FeatureInRange(result.face->feature_p, p.data()) ||
+       !FeatureInRange(result.face->feature_q, q.data()))) {
+    context.Add(FindingKind::kNotAFace, "names an element that does not exist");
+    return false;
+  }
+  for (const PhaseReport& report : result.phases) {
+    if (report.face_class.has_value() && (!FeatureInRange(report.feature_p, p.data()) ||
+                                          !FeatureInRange(report.feature_q, q.data()))) {
+      context.Add(FindingKind::kPhaseNotMaximal, "a phase names an element that does not exist");
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<Finding> Judge(const ExactBody& p, const ExactBody& q, const RelativePose& pose,
+                           const CollideResult& result, const JudgeOptions& options) {
+  std::vector<Finding> findings;
+  if (!InRange(result.interior_p, 2) || !InRange(result.interior_q, 2)) {
+    findings.push_back({FindingKind::kBadCertificate, "names an interior point that does not exist"});
+    return findings;
+  }
+  JudgeContext context(p, q, pose, result, options, &findings);
+  if (!context.InteriorPointsAreInterior()) {
+    context.Add(FindingKind::kBadCertificate, "an interior point is not strictly interior");
+    return findings;
+  }
+  if (!CheckIndices(context, p, q)) return findings;
+  const bool proven = CheckCertificate(context);
+  CheckVerdict(context, proven);
+  if (!IsZero(context.pair.c())) {
+    CheckFace(&context);
+    CheckValues(context);
+    if (options.check_phase_maxima) CheckPhases(context);
+    if (options.construct) CheckConstruction(context);
+  }
+  CheckCounters(context, proven);
+  return findings;
+}
+
+}  // namespace touchstone::exact
