@@ -86,7 +86,9 @@ std::vector<int> SpreadVertices(const Orientation& orientation, const ConvexPoly
   }
   std::vector<int> chosen = {farthest};
   const int stride = data.vertex_count() / 32 + 1;
-  for (int v = 0; v < data.vertex_count(); v += stride) chosen.push_back(v);
+  for (int v = 0; v < data.vertex_count(); v += stride) {
+    if (v != farthest) chosen.push_back(v);
+  }
   return chosen;
 }
 
