@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#ifndef TOUCHSTONE_TOOLS_TOUCHSTONE_SUBCOMMANDS_H_
+#define TOUCHSTONE_TOOLS_TOUCHSTONE_SUBCOMMANDS_H_
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "touchstone/core/cd_dual/result.h"
+
+namespace touchstone {
+
+// What the program returns.
+enum ExitCode {
+  kFine = 0,
+  kFindings = 1,  // the judge found something
+  kBadInput = 2,  // bad usage or bad data; one line on stderr says what
+};
+
+// Thrown by a subcommand for bad usage or data.
+struct BadInput {
+  std::string message;
+};
+
+// One subcommand a file. Each registers its arguments; when it is the one that was asked for, it runs and
+// leaves the exit code.
+void AddCollide(CLI::App& app, int& exit_code);
+void AddReplay(CLI::App& app, int& exit_code);
+void AddSuites(CLI::App& app, int& exit_code);
+void AddVerify(CLI::App& app, int& exit_code);
+
+// The values of --search and --certainty; throw BadInput for other words.
+Search ParseSearch(const std::string& word);
+Certainty ParseCertainty(const std::string& word);
+
+}  // namespace touchstone
+
+#endif  // TOUCHSTONE_TOOLS_TOUCHSTONE_SUBCOMMANDS_H_

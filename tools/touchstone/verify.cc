@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "touchstone/tools/numbers.h"
+#include "touchstone/tools/suites/registry.h"
+#include "touchstone/tools/touchstone/subcommands.h"
+#include "touchstone/tools/verify_report.h"
+#include "touchstone/tools/words.h"
+
+namespace touchstone {
+namespace {
+
+struct Arguments {
+  std::string suite = "all", search = "all";
+  std::uint64_t seed = 1, first = 0, count = 0;
+  double minutes = 0.0;
+  std::string meshes, cases;
+  int threads = 0;
+  std::string certainty = "exact", early_exit = "mixed";
+  bool coverage = false, json = false;
+};
+
+constexpr std::uint64_t kDefaultCount = 1000;
+
+EarlyExit ParseEarlyExit(const std::string& word) {
+  if (word == "never") return EarlyExit::kNever;
+  if (word == "always") return EarlyExit::kAlways;
+  if (word == "mixed") return EarlyExit::kMixed;
+  throw BadInput{"--early-exit: '" + word + "' is none of never, always, mixed"};
+}
+
+// The suites asked for that can run; says on stderr which cannot.
+std::vector<const Suite*> SelectSuites(const Arguments& arguments, const std::vector<std::unique_ptr<Suite>>& all) {
+  std::vector<const Suite*> selected;
+  bool known = arguments.suite == "all";
+  for (const std::unique_ptr<Suite>& suite : all) {
+    if (arguments.suite != "all" && suite->name() != arguments.suite) continue;
+    known = true;
+    const std::string reason = suite->unavailable();
+    if (reason.empty()) {
+      selected.push_back(suite.get());
+    } else if (arguments.suite == "all") {
+      std::cerr << "touchstone: suite " << suite->name() << " left out: " << reason << '\n';
+    } else {
+      throw BadInput{"suite " + arguments.suite + ": " + reason};
+    }
+  }
+  if (!known) throw BadInput{"--suite: there is no suite '" + arguments.suite + "'; `touchstone suites` lists them"};
+  return selected;
+}
+
+std::vector<Search> SelectSearches(const std::string& word) {
+  if (word == "all") return {kAllSearches.begin(), kAllSearches.end()};
+  if (const auto search = SearchFromWord(word)) return {*search};
+  throw BadInput{"--search: '" + word + "' is none of published, phased, portal, all"};
+}
+
+std::string PrepareCases(const std::string& directory) {
+  if (directory.empty()) return directory;
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (!std::filesystem::is_directory(directory)) throw BadInput{"--cases: " + directory + " is not a folder and cannot be made one"};
+  return directory;
+}
+
+void ShowProgress(const Progress& progress) {
+  constexpr int kWidth = 40;
+  const int filled = static_cast<int>(progress.fraction * kWidth);
+  std::cerr << "\r[" << std::string(filled, '#') << std::string(kWidth - filled, '.') << "] "
+            << static_cast<int>(100.0 * progress.fraction) << "%  " << progress.queries << " judged, "
+            << progress.findings << " findings " << std::flush;
+}
+
+int RunVerifyCommand(const Arguments& arguments) {
+  if (!arguments.meshes.empty() && !std::filesystem::is_directory(arguments.meshes)) {
+    throw BadInput{"--meshes: " + arguments.meshes + " is not a folder"};
+  }
+  if (!(arguments.minutes >= 0.0)) throw BadInput{"--minutes: takes a number that is not negative"};
+  if (arguments.threads < 0) throw BadInput{"--threads: takes a number that is not negative"};
+  VerifyOptions options;
+  options.searches = SelectSearches(arguments.search);
+  options.certainty = ParseCertainty(arguments.certainty);
+  options.early_exit = ParseEarlyExit(arguments.early_exit);
+  options.seed = arguments.seed;
+  options.first = arguments.first;
+  options.count = arguments.count == 0 && arguments.minutes == 0.0 ? kDefaultCount : arguments.count;
+  options.minutes = arguments.minutes;
+  options.threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.cases_dir = PrepareCases(arguments.cases);
+  const std::vector<std::unique_ptr<Suite>> all = MakeSuites(arguments.meshes);
+  options.suites = SelectSuites(arguments, all);
+
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const std::vector<SuiteStats> stats =
+      RunVerify(options, terminal ? std::function<void(const Progress&)>(ShowProgress) : nullptr);
+  if (terminal) std::cerr << "\r\033[K";
+
+  if (arguments.json) {
+    std::cout << VerifyJson(options, stats).dump(2) << '\n';
+  } else {
+    if (arguments.coverage) PrintCoverage(std::cout, options, stats);
+    PrintVerify(std::cout, options, stats);
+  }
+  return Total(options, stats).proven_findings == 0 ? kFine : kFindings;
+}
+
+}  // namespace
+
+void AddVerify(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("verify", "Run suites through searches and the exact judge");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("--suite", arguments->suite, "a suite's name, or all")->capture_default_str();
+  command->add_option("--search", arguments->search, "published, phased, portal, or all")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "which stream of queries")->capture_default_str();
+  command->add_option("--first", arguments->first, "the first index")->capture_default_str();
+  command->add_option("--count", arguments->count, "indices per suite; 1000 unless --minutes is given");
+  command->add_option("--minutes", arguments->minutes, "instead of a count: so long, the suites in equal shares");
+  command->add_option("--meshes", arguments->meshes, "folder of meshes for the suite of that name");
+  command->add_option("--threads", arguments->threads, "0: as many as the machine has")->capture_default_str();
+  command->add_option("--certainty", arguments->certainty, "float or exact")->capture_default_str();
+  command->add_option("--early-exit", arguments->early_exit, "never, always, or mixed: one in four, in the proven searches")->capture_default_str();
+  command->add_option("--cases", arguments->cases, "folder for the case files of failing queries");
+  command->add_flag("--coverage", arguments->coverage, "print the count of every combination of class, phase, verdict");
+  command->add_flag("--json", arguments->json, "print JSON");
+  command->footer("Exit code 1 when a proven search has a finding; the published search's are counted, not an error.");
+  command->callback([arguments, &exit_code] { exit_code = RunVerifyCommand(*arguments); });
+}
+
+}  // namespace touchstone
