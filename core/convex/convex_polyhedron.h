@@ -69,18 +69,22 @@ class ConvexPolyhedron {
   // The face across edge e from face f.
   int face_across(int e, int f) const { return edge(e).left == f ? edge(e).right : edge(e).left; }
 
-  // Two distinct points, proven strictly interior by exact signs: 0 near the middle, 1 off it, both off its
-  // symmetries.
+  // Two distinct points, proven strictly interior by exact signs: 0 near the middle, 1 off it, both
+  // off its symmetries.
   const Eigen::Vector3d& interior_point(int i) const { return data_->interior[i]; }
 
-  // Three times the covariance of the vertices: sqrt(n.Cn) is about how far the body reaches along a
-  // unit n from its middle, exact for points spread over a sphere. A guide for searches, no bound.
+  // Three times the covariance of the vertices: sqrt(n.Cn) is about how far the body reaches along
+  // a unit n from its middle, exact for points spread over a sphere. A guide for searches, no
+  // bound.
   const Eigen::Matrix3d& second_moments() const { return data_->second_moments; }
 
   // max over vertices of the largest absolute coordinate: the size that error bounds refer to.
   double max_coordinate() const { return data_->max_coordinate; }
   // At least the distance between any two points of the body, and less than twice that.
   double diameter_bound() const { return data_->diameter_bound; }
+
+  // What SupportVertex (support.h) climbs on.
+  const SupportTable& support_table() const { return data_->support; }
 
   // Checks every structural invariant from scratch; kOk for any body that `Build` returned.
   Status FindValidationError() const;

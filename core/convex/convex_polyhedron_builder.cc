@@ -180,6 +180,7 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
   if (Status status = internal::CheckSingleWinding(orientation, *data, o); !status.ok()) {
     return status;
   }
+  data->support = SupportTable(*data);
   ConvexPolyhedron body(std::move(data));
   assert(body.FindValidationError().ok());
   return body;

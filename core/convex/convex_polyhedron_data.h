@@ -6,6 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "touchstone/core/convex/support_table.h"
+
 namespace touchstone {
 
 // An edge, run from `tail` to `head`: `left` lies on its left seen from outside (the face whose
@@ -29,6 +31,7 @@ struct ConvexPolyhedronData {
   Eigen::Matrix3d second_moments = Eigen::Matrix3d::Zero();
   double max_coordinate = 0.0;
   double diameter_bound = 0.0;
+  SupportTable support;
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }
   int face_count() const { return static_cast<int>(face_begin.size()) - 1; }

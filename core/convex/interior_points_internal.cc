@@ -92,9 +92,9 @@ std::vector<int> SpreadVertices(const Orientation& orientation, const ConvexPoly
   return chosen;
 }
 
-// A point off `from` towards three of the vertices by unequal parts: on none of the axes, diagonals and
-// mid-planes that symmetrical bodies have. Rays between such points seldom meet an edge or a vertex
-// of M, where signs vanish and doubles cannot decide.
+// A point off `from` towards three of the vertices by unequal parts: on none of the axes, diagonals
+// and mid-planes that symmetrical bodies have. Rays between such points seldom meet an edge or a
+// vertex of M, where signs vanish and doubles cannot decide.
 Vector3d OffSymmetry(const ConvexPolyhedronData& data, const Vector3d& from,
                      const std::vector<int>& spread, std::size_t k, double fraction) {
   static constexpr std::array<double, 3> kParts = {1.0, 0.59, 0.37};
