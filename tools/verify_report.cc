@@ -134,7 +134,7 @@ void PrintFindings(std::ostream& out, const VerifyOptions& options, const std::v
     const SearchStats sum = SumOver(options, stats, search);
     for (const auto& [kind, count] : sum.findings) out << ToString(search) << ": " << kind << " " << count << '\n';
     for (const auto& [kind, count] : sum.rounding_findings) {
-      out << ToString(search) << ", by rounding only: " << kind << " " << count << '\n';
+      out << ToString(search) << ", in doubles only: " << kind << " " << count << '\n';
     }
   }
 }

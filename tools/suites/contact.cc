@@ -76,11 +76,27 @@ Eigen::Vector3d RandomPoint(Random& random, const ConvexPolyhedron& body, const 
   return point;
 }
 
-// Travel apart (positive) or in, relative to the size; the first ten offsets are 0.
+// Offsets 0 to 9 are the touch itself, 10 is one ulp apart and 11 one ulp in; then travels apart
+// (positive) or in, relative to the size.
 double TravelOfOffset(int offset) {
   static constexpr std::array<double, kContactOffsetCount - 12> kTravels = {1e-12, -1e-12, 1e-9, -1e-9,
                                                                             1e-2,  -1e-2,  2.0,  -0.5};
   return kTravels[offset - 12];
+}
+
+bool IsApart(int offset) { return offset == 10 || (offset >= 12 && TravelOfOffset(offset) > 0.0); }
+
+// Moves a touching translation towards the middle of M, which is inside whatever feature o touches: by
+// `travel` along the axis where that is longest and in proportion along the others, or, when zero, by one
+// ulp along each.
+void MoveIn(Eigen::Vector3d& translation, const Eigen::Vector3d& middle, double travel, double size) {
+  const Eigen::Vector3d out = translation - middle;
+  const double longest = std::fabs(out[LongestAxis(out)]);
+  for (int i = 0; i < 3; ++i) {
+    if (out[i] == 0.0) continue;
+    translation[i] = travel == 0.0 ? StepUlp(translation[i], out[i] < 0.0, size)
+                                   : translation[i] - travel * (out[i] / longest);
+  }
 }
 
 }  // namespace
@@ -128,17 +144,23 @@ PlacedPair PlaceAtContact(Random& random, const ConvexPolyhedron& p, const Conve
   const double sense = contact.normal[axis] > 0.0 ? 1.0 : -1.0;
 
   Eigen::Vector3d translation = touching;
-  if (offset >= 12) {
+  if (offset == 10) {
+    translation[axis] = StepUlp(translation[axis], sense > 0.0, size);
+  } else if (IsApart(offset)) {
     translation[axis] += sense * (TravelOfOffset(offset) * size);
-  } else if (offset >= 10) {
-    translation[axis] = StepUlp(translation[axis], (sense > 0.0) == (offset == 10), size);
+  } else if (offset >= 11) {
+    const Eigen::Vector3d middle = PlainMean(p.vertices()) - PlainRotate(rotation, PlainMean(q.vertices()));
+    MoveIn(translation, middle, offset == 11 ? 0.0 : -TravelOfOffset(offset) * size, size);
   }
-  const double moved = sense * (translation[axis] - touching[axis]);  // its sign is exact
+  const bool moved = translation != touching;
   StatusOr<RelativePose> pose = RelativePose::Make(rotation, translation);
   assert(pose.ok());
   PlacedPair pair{p, q, *pose};
-  if (moved == 0.0) pair.expected = Verdict::kTouch;
-  if (moved > 0.0) pair.expected = Verdict::kSeparate;
+  if (!moved) {
+    pair.expected = Verdict::kTouch;
+  } else if (sense * (translation[axis] - touching[axis]) > 0.0 && IsApart(offset)) {
+    pair.expected = Verdict::kSeparate;
+  }
   return pair;
 }
 

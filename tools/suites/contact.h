@@ -44,9 +44,9 @@ ContactFeatures DrawContact(Random& random, const ConvexPolyhedron& p, const Con
 // otherwise one ulp, 1e-12, 1e-9 of the size on either side, visible gaps and depths, deep and far.
 inline constexpr int kContactOffsetCount = 20;
 
-// Q placed so that random points of the two features coincide (dyadic mixtures of their vertices),
-// then moved by offset number `offset` along the axis where `contact.normal` is longest. The verdict is
-// expected to be touch or separate where the construction makes it so.
+// Q placed so that random points of the two features coincide (dyadic mixtures of their vertices), then
+// moved by offset number `offset`: apart along the axis where `contact.normal` is longest, in towards the
+// middle of M. The verdict is expected to be touch or separate where the construction makes it so.
 PlacedPair PlaceAtContact(Random& random, const ConvexPolyhedron& p, const ConvexPolyhedron& q,
                           const Eigen::Matrix3d& rotation, const ContactFeatures& contact, int offset);
 

@@ -54,7 +54,7 @@ void PrintJudgement(const Arguments& arguments, const JudgedQuery& query, bool c
   }
   for (const NamedFinding& finding : query.findings) std::cout << "judge            " << finding.kind << ": " << finding.detail << '\n';
   for (const NamedFinding& finding : query.rounding_findings) {
-    std::cout << "judge            by rounding only: " << finding.kind << ": " << finding.detail << '\n';
+    std::cout << "judge            in doubles only: " << finding.kind << ": " << finding.detail << '\n';
   }
 }
 

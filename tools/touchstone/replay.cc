@@ -46,7 +46,7 @@ int RunReplay(const Arguments& arguments) {
     std::cout << "recorded         " << query.finding << ' ' << query.detail << '\n';
     for (const NamedFinding& finding : judged.findings) std::cout << "finding          " << finding.kind << ": " << finding.detail << '\n';
     for (const NamedFinding& finding : judged.rounding_findings) {
-      std::cout << "by rounding only " << finding.kind << ": " << finding.detail << '\n';
+      std::cout << "in doubles only  " << finding.kind << ": " << finding.detail << '\n';
     }
     if (judged.findings.empty()) std::cout << "finding          none\n";
   }
