@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "touchstone/exact/decide.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "touchstone/exact/exact_body_data.h"

@@ -111,6 +111,8 @@ void CheckClass(const JudgeContext& context, const SupportingFeatures& supportin
       return context.Add(FindingKind::kWrongClass, "the edges named are parallel; is " + is);
     }
   }
+  // The paper knows three classes only, and its F_fv holds a face of P with any one supporting vertex.
+  if (context.published()) return;
   if (!PartContainsExitPoint(context.pair, context.face->normal, context.face->ratio, vertices_p,
                              vertices_q)) {
     context.Add(FindingKind::kWrongClass,
