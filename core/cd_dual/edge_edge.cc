@@ -75,6 +75,14 @@ double Volume(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Eigen::V
   return x.dot(y.cross(z));
 }
 
+// The sign of a volume of three unit normals, zero where it may be rounding: each normal is off by a
+// few units of 2^-52, so the volume of normals in one plane comes out below 32 of them. Without this,
+// aligned edges would span faces that M does not have.
+double Sign(double volume) {
+  constexpr double kRounding = 32.0 * kRoundingUnit;
+  return volume > kRounding ? 1.0 : volume < -kRounding ? -1.0 : 0.0;
+}
+
 }  // namespace
 
 std::optional<FaceOfM> EdgeEdgeFace(const MinkowskiDifference& m, int e_p, int e_q,
@@ -86,9 +94,9 @@ std::optional<FaceOfM> EdgeEdgeFace(const MinkowskiDifference& m, int e_p, int e
   const Eigen::Vector3d& b = m.p().face_normal(in_p.right);
   const Eigen::Vector3d c = -m.NormalToP(m.q().face_normal(in_q.left));
   const Eigen::Vector3d d = -m.NormalToP(m.q().face_normal(in_q.right));
-  const double cba = Volume(c, b, a), dba = Volume(d, b, a);
+  const double cba = Sign(Volume(c, b, a)), dba = Sign(Volume(d, b, a));
   if (!(cba * dba < 0.0)) return std::nullopt;
-  const double adc = Volume(a, d, c), bdc = Volume(b, d, c);
+  const double adc = Sign(Volume(a, d, c)), bdc = Sign(Volume(b, d, c));
   if (!(adc * bdc < 0.0) || !(cba * bdc > 0.0)) return std::nullopt;
 
   const Eigen::Vector3d along_p = m.p().vertex(in_p.head) - m.p().vertex(in_p.tail);

@@ -94,10 +94,24 @@ std::optional<int> Signs::Determinant(VertexPair x, VertexPair y, VertexPair z) 
   const double error =
       1.01 * (6.0 * kRoundingUnit * la * lb * lc + e * (lb * lc + la * lc + la * lb)) + 0x1p-1000;
   if (const auto sign = Settled(a.dot(b.cross(c)), error)) return sign;
+  if (const auto sign = HeightOverOrigin(x, y, z)) return sign;
   if (!exact_allowed()) return std::nullopt;
   ++exact_count_;
   const ExactDifference& big = exact();
   return touchstone::Determinant(big.Point(x), big.Point(y), big.Point(z)).sign();
+}
+
+std::optional<int> Signs::HeightOverOrigin(VertexPair x, VertexPair y, VertexPair z) const {
+  // det [x y z] = n . x with n = (y - x) x (z - x), formed from differences: for a sliver, n is short
+  // and its error shorter still, where the product of the three lengths is not. The bound is that of
+  // a dot product with both sides off: 3.01 u sum |n_i x_i| + E sum |n_i| + dn sum |x_i|.
+  const FacetPlane plane = Plane({x, y, z});
+  const Eigen::Vector3d a = m_.Point(x);
+  const double ln = plane.normal.lpNorm<1>() + 3.0 * plane.normal_error;
+  const double error = 1.01 * (3.1 * kRoundingUnit * ln * a.cwiseAbs().maxCoeff() +
+                               ln * m_.coordinate_error() + plane.normal_error * a.lpNorm<1>()) +
+                       0x1p-1000;
+  return Settled(plane.normal.dot(a), error);
 }
 
 std::optional<int> Signs::AlongDirection(const Eigen::Vector3d& n, VertexPair w) {

@@ -75,6 +75,9 @@ class Signs {
   const ExactDifference& exact();
 
  private:
+  // The second filter of Determinant, finer for slivers.
+  std::optional<int> HeightOverOrigin(VertexPair x, VertexPair y, VertexPair z) const;
+
   const MinkowskiDifference& m_;
   Certainty certainty_;
   std::unique_ptr<ExactDifference> exact_;

