@@ -40,7 +40,7 @@ TEST(VerifyCommand, JsonHasTheKeysOfEverySuiteAndSearch) {
     EXPECT_GT(row["judged_per_second"].get<double>(), 0.0);
   }
   EXPECT_EQ(searches, (std::set<std::string>{"published", "phased", "portal"}));
-  for (const std::string search : searches) {
+  for (const std::string& search : searches) {
     EXPECT_EQ(json["coverage"][search]["queries"], 160);
     EXPECT_THAT(json["coverage"][search]["combinations"], Not(IsEmpty()));
   }
