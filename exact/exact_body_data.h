@@ -60,6 +60,7 @@ struct ExactBodyData {
   void BuildTopology() const;
   void BuildNormals() const;
   void BuildEdgeVectors() const;
+  bool IsBehind(int f, int i) const;
 
   mutable std::once_flag topology_once_, normals_once_, edge_vectors_once_, interior_once_[2];
   mutable Topology topology_;

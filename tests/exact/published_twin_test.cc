@@ -13,6 +13,7 @@
 namespace touchstone::exact {
 namespace {
 
+using testing::ElementsAre;
 using testing::IsEmpty;
 
 // A body with the mean of its vertices as interior point.
@@ -24,21 +25,114 @@ ExactBody WithMean(const Points& points) {
   return ExactBody(hull, mean, hull.interior_point(1));
 }
 
-// Integer tetrahedra with aligned edges: SEARCH-FV and SEARCH-VF end at their maxima, and the arc test's
-// strict inequalities hide every way on. Design notes, section 5; seen in doubles, exact here.
+// A body around the origin, which is its interior point: then c = -t and 1/s = n.t / (h_P(n) + h_-Q(n)).
+ExactBody AroundOrigin(const Points& points) {
+  const ConvexPolyhedron hull = Hull(points, false);
+  EXPECT_EQ(hull.vertex_count(), static_cast<int>(points.size()));
+  return ExactBody(hull, Eigen::Vector3d::Zero(), hull.interior_point(1));
+}
+
+std::vector<std::string> Details(const std::vector<Finding>& findings) {
+  std::vector<std::string> details;
+  for (const Finding& f : findings) details.push_back(f.detail);
+  return details;
+}
+
+constexpr const char* kStuckFv = "SEARCH-FV ended below the maximum of its class";
+constexpr const char* kStuckEe = "SEARCH-EE ended below the maximum over F(M)";
+constexpr const char* kNotExit = "the final face is not the one the ray leaves by";
+constexpr const char* kFalseOverlap = "says overlap, is separate";
+
+// The ratios 1/s of the faces that a phase visited, in order.
+std::vector<mpq_class> Visited(const TwinResult& twin, Phase phase) {
+  std::vector<mpq_class> ratios;
+  for (std::size_t i = 0; i < twin.trace_ratio.size(); ++i) {
+    if (twin.result.trace[i].phase == phase) ratios.push_back(twin.trace_ratio[i]);
+  }
+  return ratios;
+}
+
+mpq_class Q(long numerator, long denominator) {
+  mpq_class value(numerator, denominator);
+  value.canonicalize();
+  return value;
+}
+
+// Theorem 1 fails with five vertices against four, coordinates at most 2, no two features parallel and no
+// two faces of M at one distance: the first face has 2/13, its three neighbours less, a fourth face 1/4.
+// By random search; five is least, for the faces of a tetrahedron all neighbour each other.
+TEST(PublishedTwin, SearchFvSticksOnFiveVerticesInGeneralPosition) {
+  const ExactBody p = AroundOrigin({{0, -1, -1}, {1, -2, 0}, {0, 2, 1}, {-2, 2, 0}, {-2, 0, 0}});
+  const ExactBody q = AroundOrigin({{-1, -1, -1}, {2, 1, 2}, {-1, 1, 1}, {0, 0, -1}});
+  const RelativePose pose = Pose(Eigen::Matrix3d::Identity(), {-1, 0, 0});
+  const TwinResult twin = RunPublishedTwin(p, q, pose, 0, 0, {.trace = true});
+  EXPECT_THAT(Visited(twin, Phase::kFaceVertex), ElementsAre(Q(2, 13), Q(-5, 7), Q(1, 7), Q(1, 8)));
+  EXPECT_EQ(*twin.phase_ratio[0], Q(2, 13));
+  EXPECT_EQ(twin.ratio, Q(3, 8));
+  EXPECT_THAT(Details(JudgeTwin(p, q, pose, twin)), ElementsAre(kStuckFv));
+}
+
+// The same with coordinates at most 1, where neighbours tie: 1/3, and 1/2 for the face beyond them.
+TEST(PublishedTwin, SearchFvSticksOnFiveVerticesOfUnitCoordinates) {
+  const ExactBody p = AroundOrigin({{0, -1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {-1, 0, -1}});
+  const ExactBody q = AroundOrigin({{0, 1, 1}, {1, 0, 0}, {-1, 0, -1}, {0, -1, 0}});
+  const RelativePose pose = Pose(Eigen::Matrix3d::Identity(), {1, 0, 0});
+  const TwinResult twin = RunPublishedTwin(p, q, pose, 0, 0, {.trace = true});
+  EXPECT_THAT(Visited(twin, Phase::kFaceVertex), ElementsAre(Q(1, 3), Q(1, 4), Q(1, 3), Q(-2, 3)));
+  EXPECT_THAT(Details(JudgeTwin(p, q, pose, twin)), ElementsAre(kStuckFv));
+}
+
+// A separate pair called overlapping, five vertices against four, coordinates at most 3, in general
+// position: SEARCH-FV stops at 13/20 and misses the face of P with 23/20, which is the exit face; SEARCH-EE
+// climbs to 22/25, whose better neighbours on M are faces of F_fv, which it never looks at.
+TEST(PublishedTwin, FiveVerticesInGeneralPositionAreCalledOverlapping) {
+  const ExactBody p = AroundOrigin({{-1, 0, -1}, {0, 1, 2}, {1, -3, 2}, {2, 2, -2}, {1, -2, 0}});
+  const ExactBody q = AroundOrigin({{-1, -2, -2}, {3, 1, 1}, {-1, 1, 2}, {2, 3, -2}});
+  const RelativePose pose = Pose(Eigen::Matrix3d::Identity(), {-3, 0, -2});
+  const TwinResult twin = RunPublishedTwin(p, q, pose, 0, 0, {.trace = true});
+  EXPECT_THAT(Visited(twin, Phase::kFaceVertex), ElementsAre(Q(13, 20), Q(4, 7), Q(-4, 5), Q(13, 25)));
+  EXPECT_THAT(Visited(twin, Phase::kEdgeEdge),
+              ElementsAre(Q(11, 17), Q(5, 9), Q(11, 15), Q(22, 25), Q(11, 15)));
+  EXPECT_THAT(Details(JudgeTwin(p, q, pose, twin)),
+              ElementsAre(kFalseOverlap, kStuckFv, kStuckEe, kNotExit));
+  const ExactDecision truth = Decide(p, q, pose);
+  EXPECT_EQ(truth.verdict, Verdict::kSeparate);
+  EXPECT_EQ(1 / truth.exit->parameter, Q(23, 20));
+  EXPECT_EQ(truth.exit->face_class, FaceClass::kFaceVertex);
+  // Early exit changes nothing: no face with d > 0 is met.
+  EXPECT_EQ(RunPublishedTwin(p, q, pose, 0, 0, {.early_exit = true}).result.verdict, Verdict::kOverlap);
+}
+
+// Two tetrahedra with coordinates of 0 and 1 alone, separate, called overlapping though both first phases
+// are at their maxima: P's face 0 2 3 is parallel to Q's edge 0-3, the supporting vertex 0 is as good as 3,
+// and the edge pair (0-3, 3-2) that leads on meets Q at 3.
+TEST(PublishedTwin, UnitTetrahedraWithAParallelEdgeAreCalledOverlapping) {
+  const ExactBody p = AroundOrigin({{1, 0, -1}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 1}});
+  const ExactBody q = AroundOrigin({{0, -1, -1}, {1, -1, 1}, {1, 1, 0}, {-1, 0, 0}});
+  const RelativePose pose = Pose(Eigen::Matrix3d::Identity(), {1, -1, 0});
+  const TwinResult twin = RunPublishedTwin(p, q, pose, 0, 0, {.trace = true});
+  EXPECT_THAT(Visited(twin, Phase::kFaceVertex), ElementsAre(Q(1, 2), Q(-2, 5), Q(-1, 2), Q(2, 5)));
+  EXPECT_THAT(Visited(twin, Phase::kEdgeEdge), IsEmpty());
+  EXPECT_EQ(twin.ratio, Q(1, 2));
+  EXPECT_THAT(Details(JudgeTwin(p, q, pose, twin)), ElementsAre(kFalseOverlap, kStuckEe, kNotExit));
+  const ExactDecision truth = Decide(p, q, pose);
+  EXPECT_EQ(1 / truth.exit->parameter, Q(6, 5));
+  EXPECT_EQ(truth.exit->face_class, FaceClass::kEdgeEdge);
+}
+
+// Needles with aligned edges, seen first in doubles (design notes, section 5) and exact here: separate by
+// 4.157, while the search ends at d = 0 and so says overlap.
 TEST(PublishedTwin, NeedlesWithAlignedEdgesAreCalledOverlapping) {
   const ExactBody p = WithMean({{-14, 1, -2}, {39, 0, -2}, {25, 2, -2}, {15, 2, 0}});
   const ExactBody q = WithMean({{-21, 2, 0}, {-38, 3, -1}, {2, 2, 0}, {0, -3, -2}});
   const RelativePose pose = Pose(Eigen::Matrix3d::Identity(), {8, -2, -2});
-  const ExactDecision truth = Decide(p, q, pose);
-  EXPECT_EQ(truth.verdict, Verdict::kSeparate);
   const TwinResult twin = RunPublishedTwin(p, q, pose, 0, 0, {.trace = true});
-  std::printf("g %.17g, 1/s %s; twin %s, ratio %s\n", truth.exit->exit_travel,
-              mpq_class(1 / truth.exit->parameter).get_str().c_str(),
-              std::string(ToString(twin.result.verdict)).c_str(), twin.ratio.get_str().c_str());
-  for (const Finding& f : JudgeTwin(p, q, pose, twin)) {
-    std::printf("%s: %s\n", std::string(ToString(f.kind)).c_str(), f.detail.c_str());
-  }
+  EXPECT_EQ(twin.ratio, 1);
+  EXPECT_EQ(twin.result.signed_distance->value, 0.0);
+  EXPECT_THAT(Details(JudgeTwin(p, q, pose, twin)), ElementsAre(kFalseOverlap, kStuckEe, kNotExit));
+  const ExactDecision truth = Decide(p, q, pose);
+  EXPECT_EQ(1 / truth.exit->parameter, Q(158, 129));
+  EXPECT_NEAR(truth.exit->exit_travel, 4.1566808048310708, 1e-15);
 }
 
 // What the twin finds, the judge finds in the twin's own result, and nothing else.
@@ -73,7 +167,7 @@ TEST(PublishedTwin, JudgeAndJudgeTwinAgree) {
     }
   }
   std::printf("runs that fail a theorem: %d of 200\n", failures);
-  EXPECT_GE(failures, 1);
+  EXPECT_GE(failures, 10);  // measured 39
 }
 
 // Each face of a tetrahedron neighbours every other, so steepest ascent cannot stick.
