@@ -100,8 +100,8 @@ void CheckTermination(const JudgeContext& context, bool proven) {
   }
   const bool complete = result.face.has_value() && result.signed_distance.has_value() &&
                         result.exit_travel.has_value() && result.exit_point.has_value();
-  if (result.termination == Termination::kOptimal && !complete &&
-      options.certainty == Certainty::kExact) {
+  // Under early exit the caller asked for no more than the verdict, even where the search ran to the end.
+  if (result.termination == Termination::kOptimal && !complete && !may_stop) {
     context.Add(FindingKind::kMissingPart, "the search ended, but face, d, g or exit point is absent");
   }
   if (result.termination == Termination::kCoincident && !may_stop) {

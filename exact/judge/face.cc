@@ -150,7 +150,9 @@ void CheckFace(JudgeContext* context) {
   }
   context->face = named;
   if (!named.crossed) {
-    if (Compare(named.ratio, context->ExitRatio()) != 0) {
+    // As printed, the paper's search may stop at any face with d > 0.
+    const bool may_be_any = context->published() && context->options.early_exit;
+    if (!may_be_any && Compare(named.ratio, context->ExitRatio()) != 0) {
       // The part that holds the exit point is another facet's: nothing more to say of this one.
       return context->Add(FindingKind::kNotOptimal, "a facet of M that the ray does not leave by");
     }
