@@ -149,8 +149,9 @@ Status FindInteriorPoints(const Orientation& orientation, ConvexPolyhedronData* 
   const std::vector<int> spread = SpreadVertices(orientation, *data, mean);
   const auto first = FindFirst(search, *data, mean, spread);
   if (!first) {
-    // The exact mean of vertices that are all below a plane, or in it but not all, is below it too.
-    // So unless the body is as thin as a rounding, the plane that refused has a vertex beyond.
+    // A candidate is a mean of vertices up to rounding, and an exact mean of vertices none of which
+    // is beyond a plane is not beyond it. So unless the body is as thin as a rounding, the plane
+    // that refused has a vertex beyond.
     const int f = search.refusing_face();
     if (const auto v = FindVertexBeyond(orientation, *data, f)) return VertexBeyondFace(f, *v);
     return {StatusCode::kNoInteriorPoint, ElementKind::kNone, -1, -1,

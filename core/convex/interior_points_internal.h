@@ -12,11 +12,11 @@ namespace touchstone::internal {
 bool IsStrictlyInside(const Orientation& orientation, const ConvexPolyhedronData& data,
                       const Eigen::Vector3d& point);
 
-// Fills the two interior points: the mean of the vertices and a point from there towards the vertex
-// farthest from it; where rounding spoils these, doubles near them and near other means. Returns
-// kNotConvex where the mean is not inside because some vertex lies beyond a face, and
-// kNoInteriorPoint where no candidate was proven inside.
-// Complexity: O(n) per candidate, and one candidate each is enough for all but the thinnest bodies.
+// Fills the two interior points: near the mean of the vertices, and farther off it; both off the
+// planes of symmetry that bodies have. Where rounding spoils these, doubles near them and near
+// other means. Returns kNotConvex where a vertex beyond a face is why a candidate is not inside,
+// and kNoInteriorPoint where no candidate was proven inside. Complexity: O(n) per candidate, and
+// one candidate each is enough for all but the thinnest bodies.
 Status FindInteriorPoints(const Orientation& orientation, ConvexPolyhedronData* data);
 
 }  // namespace touchstone::internal

@@ -13,10 +13,12 @@ namespace touchstone {
 namespace {
 
 // Chosen by measurement: README.md.
-constexpr int kScanLimit = 16;  // corners: a scan is faster up to here
+constexpr int kScanLimit = 12;  // corners: a scan is faster up to here
 constexpr double kCellsPerCorner = 8;
 constexpr int kMaxResolution = 1024;
 constexpr long kFillBudget = 8;  // blocks per cell
+constexpr int kScanLanes = 4;
+static_assert(kScanLimit % kScanLanes == 0 && kScanLimit <= 32);
 
 // How the faces meet at a vertex: the number of its edges between facets of different planes. Three
 // or more at a corner, two inside an edge of the body, none inside a facet.
@@ -68,6 +70,8 @@ SupportTable::SupportTable(const ConvexPolyhedronData& data) {
     scan_vertices_.clear();
     return;
   }
+  // Spare lanes repeat the first corner, and the smallest index wins.
+  while (scan_vertices_.size() % kScanLanes != 0) scan_vertices_.push_back(scan_vertices_[0]);
   for (int axis = 0; axis < 3; ++axis) {
     for (int v : scan_vertices_) {
       const Block& block = blocks_[corner_of_vertex_[v]];
@@ -181,19 +185,26 @@ void SupportTable::FillCells() {
 }
 
 int SupportTable::Scan(double x, double y, double z) const {
+  // Which corner is the highest is as good as random: a branch on it costs more than all heights.
   const auto n = static_cast<int>(scan_vertices_.size());
   const double* xs = scan_.data();
   const double* ys = xs + n;
   const double* zs = ys + n;
   std::array<double, kScanLimit> heights;
-  for (int i = 0; i < n; ++i) heights[i] = x * xs[i] + y * ys[i] + z * zs[i];
-  int best = 0;
-  double height = heights[0];
-  for (int i = 1; i < n; ++i) {
-    best = heights[i] > height ? i : best;
-    height = heights[i] > height ? heights[i] : height;
+  int filled = 0;
+  do {
+    for (int k = 0; k < kScanLanes; ++k, ++filled) {
+      heights[filled] = x * xs[filled] + y * ys[filled] + z * zs[filled];
+    }
+  } while (filled < n);
+  std::array<double, kScanLanes> top = {heights[0], heights[1], heights[2], heights[3]};
+  for (int i = kScanLanes; i < n; i += kScanLanes) {
+    for (int k = 0; k < kScanLanes; ++k) top[k] = std::max(top[k], heights[i + k]);
   }
-  return scan_vertices_[best];
+  const double highest = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
+  unsigned is_highest = 0;
+  for (int i = 0; i < n; ++i) is_highest |= static_cast<unsigned>(heights[i] == highest) << i;
+  return scan_vertices_[std::countr_zero(is_highest)];
 }
 
 // Ends, because each move strictly raises the height, and the height of a corner is one number: the
@@ -206,16 +217,16 @@ int SupportTable::Climb(int place, double x, double y, double z, long* budget, l
     const int block_count = block->block_count;
     *budget -= block_count;
     for (int i = 0; i < block_count; ++i, ++block) {
-      double h[kLanes], top[kLanes / 2];
-      for (int k = 0; k < kLanes; ++k) h[k] = x * block->x[k] + y * block->y[k] + z * block->z[k];
-      for (int k = 0; k < 4; ++k) top[k] = h[k] > h[k + 4] ? h[k] : h[k + 4];
-      for (int k = 0; k < 2; ++k) top[k] = top[k] > top[k + 2] ? top[k] : top[k + 2];
-      const double highest = top[0] > top[1] ? top[0] : top[1];
+      std::array<double, kLanes> h;
+      std::array<double, kLanes / 2> top;
+      for (int k = 0; k < 8; ++k) h[k] = x * block->x[k] + y * block->y[k] + z * block->z[k];
+      for (int k = 0; k < 4; ++k) top[k] = std::max(h[k], h[k + 4]);
+      const double highest = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
       if (highest > height) {
         height = highest;
-        int lane = 0;
-        for (int k = 1; k < kLanes; ++k) lane = h[k] == highest ? k : lane;
-        next = block->link[lane];
+        unsigned is_highest = 0;
+        for (int k = 0; k < 8; ++k) is_highest |= static_cast<unsigned>(h[k] == highest) << k;
+        next = block->link[std::countr_zero(is_highest)];
       }
     }
     if (next == place) break;

@@ -35,13 +35,14 @@ class SupportTable {
 
   // Some of a corner's neighbours: spare lanes repeat the corner itself, which is never higher. A
   // corner with more than eight has several blocks in a row, its place being that of the first.
-  struct Block {
+  struct alignas(64) Block {
     double x[kLanes], y[kLanes], z[kLanes];  // of the neighbours
     std::int32_t link[kLanes];               // their places
     double own_x, own_y, own_z;
     std::int32_t vertex;
     std::int32_t block_count;
   };
+  static_assert(sizeof(Block) == 256);  // four cache lines
 
   void AddCorners(const ConvexPolyhedronData& data);
   void FillCells();

@@ -18,7 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// How far the vertex found is below the best one, exactly, over the largest entry of n times the diameter bound.
+// How far the vertex found is below the best one, exactly, over the largest entry of n times the
+// diameter bound.
 double Shortfall(const ConvexPolyhedron& body, const Vector3d& direction, int found) {
   const DyadicVector n = ToDyadic(direction);
   const DyadicVector own = ToDyadic(body.vertex(found));
