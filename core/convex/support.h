@@ -14,7 +14,9 @@ namespace touchstone {
 // `climb_steps`, when given, is increased by the number of moves made.
 //
 // The answer is a proposal: a proof is made where a verdict rests on it (cd_dual/certify.h).
-// Complexity: O(n) at worst; near-constant for bodies with a direction table.
+// It is always a corner of the body, never a vertex inside an edge or a facet. Any direction is
+// safe: one that is zero or not finite gives some vertex. Complexity: O(n) at worst; near-constant
+// from the direction table.
 int SupportVertex(const ConvexPolyhedron& body, const Eigen::Vector3d& direction, int start = -1,
                   long* climb_steps = nullptr);
 
