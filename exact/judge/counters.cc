@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Check 6: counters, trace, phase, tier and termination agree, and an early exit was entitled to exit.
+// Check 6: counters, trace, phase, tier and termination agree, and an early exit was entitled to
+// exit.
 #include "touchstone/exact/judge/checks.h"
 
 namespace touchstone::exact {
@@ -19,7 +20,8 @@ void CheckCounts(const JudgeContext& context) {
   for (int i = 0; i < 3; ++i) {
     const PhaseCounts& counts = context.result.counts[static_cast<int>(Phase::kFaceVertex) + i];
     const PhaseReport& report = context.result.phases[i];
-    if (report.claim == PhaseClaim::kNotRun && (counts.faces_visited != 0 || counts.arc_tests != 0)) {
+    if (report.claim == PhaseClaim::kNotRun &&
+        (counts.faces_visited != 0 || counts.arc_tests != 0)) {
       context.Add(FindingKind::kBadCounters, "a phase that did not run has counts");
     }
     if (report.claim == PhaseClaim::kEmpty && counts.faces_visited != 0) {
@@ -30,8 +32,7 @@ void CheckCounts(const JudgeContext& context) {
 
 void CheckReports(const JudgeContext& context) {
   for (const PhaseReport& report : context.result.phases) {
-    const bool names =
-        report.claim == PhaseClaim::kLocal || report.claim == PhaseClaim::kMaximum;
+    const bool names = report.claim == PhaseClaim::kLocal || report.claim == PhaseClaim::kMaximum;
     if (names != report.face_class.has_value()) {
       context.Add(FindingKind::kBadCounters, "a phase's claim and face do not go together");
     }
@@ -51,15 +52,15 @@ void CheckTrace(const JudgeContext& context) {
     ++steps[phase];
     if (!step.accepted) continue;
     if (last[phase].has_value() && !(step.signed_distance > *last[phase])) {
-      context.Add(FindingKind::kBadCounters, "an accepted step that does not increase the distance");
+      context.Add(FindingKind::kBadCounters,
+                  "an accepted step that does not increase the distance");
     }
     last[phase] = step.signed_distance;
   }
   for (int i = 0; i < kPhaseCount; ++i) {
     if (steps[i] != result.counts[i].faces_visited) {
-      context.Add(FindingKind::kBadCounters,
-                  "faces visited and the trace differ in phase " +
-                      std::string(ToString(static_cast<Phase>(i))));
+      context.Add(FindingKind::kBadCounters, "faces visited and the trace differ in phase " +
+                                                 std::string(ToString(static_cast<Phase>(i))));
     }
   }
 }
@@ -84,7 +85,8 @@ void CheckPhaseAndTier(const JudgeContext& context) {
     bad("a tier is due exactly where a verdict is proven");
   }
   if (result.phase == Phase::kOverlay && search != Search::kPhased) bad("the overlay is kPhased's");
-  if (result.phase == Phase::kPortal && search != Search::kPortal) bad("the portal is kPortal's");
+  // kPhased turns to the portal where parallel features leave its phases nothing to move to.
+  if (result.phase == Phase::kPortal && search == Search::kPublished) bad("kPublished has no portal");
 }
 
 void CheckTermination(const JudgeContext& context, bool proven) {
@@ -100,12 +102,15 @@ void CheckTermination(const JudgeContext& context, bool proven) {
   }
   const bool complete = result.face.has_value() && result.signed_distance.has_value() &&
                         result.exit_travel.has_value() && result.exit_point.has_value();
-  // Under early exit the caller asked for no more than the verdict, even where the search ran to the end.
+  // Under early exit the caller asked for no more than the verdict, even where the search ran to
+  // the end.
   if (result.termination == Termination::kOptimal && !complete && !may_stop) {
-    context.Add(FindingKind::kMissingPart, "the search ended, but face, d, g or exit point is absent");
+    context.Add(FindingKind::kMissingPart,
+                "the search ended, but face, d, g or exit point is absent");
   }
   if (result.termination == Termination::kCoincident && !may_stop) {
-    context.Add(FindingKind::kMissingPart, "c = o, but the exit face was asked for: another c was due");
+    context.Add(FindingKind::kMissingPart,
+                "c = o, but the exit face was asked for: another c was due");
   }
 }
 
