@@ -16,7 +16,7 @@ namespace touchstone {
 //            proximity may use cd_dual, convex, base
 //   exact reads vertices, faces, poses, statuses and results of the core, and no other header of it
 //   core includes no CGAL, GMP or MPFR
-//   *_internal.h stays in its folder
+//   *_internal.h stays in its folder, but for tests
 //   the project's own headers are included as "touchstone/..."
 std::vector<std::string> FindLayerViolations(const std::filesystem::path& root);
 

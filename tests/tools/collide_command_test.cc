@@ -13,6 +13,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr std::string_view kCubeOff =
     "OFF\n8 6 0\n"
@@ -78,18 +79,19 @@ TEST_F(CollideCommand, EverySearchAnswersAndTheJudgeAgrees) {
 }
 
 TEST_F(CollideCommand, JsonHasTheParts) {
-  const ProgramRun run = RunProgram("collide " + cube + " " + cube + PoseBy("2", "0.25", "0.125") + " --judge --trace --json");
+  const ProgramRun run = RunProgram("collide " + cube + " " + cube + PoseBy("2", "0.25", "0.125") + " --search phased --judge --trace --json");
   const nlohmann::json json = run.json();
   for (const std::string key : {"p", "q", "search", "certainty", "verdict", "tier", "phase", "termination", "face",
                                 "signed_distance", "exit_travel", "exit_point", "certificate", "phases", "counts",
                                 "trace", "search_ns", "judge"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
-  EXPECT_DOUBLE_EQ(json["exit_travel"]["value"].get<double>() > 0.0, true);
+  EXPECT_GT(json["exit_travel"]["value"].get<double>(), 0.0);
+  EXPECT_THAT(json["trace"], Not(IsEmpty()));
 }
 
 TEST_F(CollideCommand, TextNamesVerdictFaceCertificateAndJudge) {
-  const ProgramRun run = RunProgram("collide " + cube + " " + cube + PoseBy("2", "0.25", "0.125") + " --judge --trace");
+  const ProgramRun run = RunProgram("collide " + cube + " " + cube + PoseBy("2", "0.25", "0.125") + " --search phased --judge --trace");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("verdict          separate"), HasSubstr("exit face"), HasSubstr("certificate"),
                              HasSubstr("no findings"), HasSubstr("faces visited")));

@@ -63,8 +63,8 @@ TEST(Suites, GiveTheSameDoublesOnEveryMachine) {
     Hash hash;
     for (std::uint64_t index = 0; index < 200; index += 3) hash.Add(suite->Generate(kSeed, index));
     const auto known = expected.find(std::string(suite->name()));
-    ASSERT_NE(known, expected.end()) << "{\"" << suite->name() << "\", 0x" << std::hex << hash.value() << "u},";
-    EXPECT_EQ(hash.value(), known->second) << suite->name() << " 0x" << std::hex << hash.value();
+    EXPECT_TRUE(known != expected.end() && known->second == hash.value())
+        << "now {\"" << suite->name() << "\", 0x" << std::hex << hash.value() << "u},";
   }
 }
 

@@ -30,6 +30,9 @@ int Run(int argc, char** argv) {
   AddVerify(app, exit_code);
   AddSuites(app, exit_code);
   AddReplay(app, exit_code);
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+    throw BadInput{"there is no subcommand '" + std::string(argv[1]) + "'; see touchstone --help"};
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
