@@ -15,6 +15,7 @@ const ConvexPolyhedron& BodyOf(const Signs& signs, Body body) {
 int VertexOf(VertexPair pair, Body body) { return body == Body::kP ? pair.p : pair.q; }
 
 bool IsLocalMaximum(const Signs& signs, const Eigen::Vector3d& direction, Body body, int vertex) {
+  if (!BodyOf(signs, body).is_corner(vertex)) return false;
   for (const int neighbor : BodyOf(signs, body).vertex_neighbors(vertex)) {
     const auto sign = signs.AlongDirectionEdge(direction, body, neighbor, vertex);
     if (!sign || *sign > 0) return false;
@@ -122,6 +123,7 @@ std::optional<Feature> SupportingFeature(Signs* signs, FacetPlane* plane, Body b
   const int own_face = FaceByIdentity(*signs, *plane, body, vertex);
   if (own_face >= 0) return Feature{FeatureKind::kFace, own_face};  // convexity was proven on building
 
+  if (!shape.is_corner(vertex)) return std::nullopt;
   const auto neighbors = shape.vertex_neighbors(vertex);
   const auto faces = shape.vertex_faces(vertex);
   const std::size_t degree = neighbors.size();

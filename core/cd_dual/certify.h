@@ -14,9 +14,10 @@ namespace touchstone {
 // Proves that the whole of M lies strictly on the negative side of `direction` (P's frame, taken
 // exactly), so that the bodies are separate. `support` is the vertex of M proposed as extreme.
 //
-// First locally: `support` is on the negative side, and on each body no neighbour of its vertex lies
-// further along. A convex body lies in the cone of a vertex's edges, so a local maximum is a global
-// one, and the test costs the vertex's degree. Where a neighbour is too close to tell, every vertex is
+// First locally: `support` is on the negative side, its vertices are corners, and on each body no
+// neighbour of the corner lies further along. A convex body lies in the cone of a corner's edges, so a
+// local maximum is a global one, and the test costs the corner's degree. (Not so at a vertex within
+// an edge or a facet, whose neighbours may all be level while the body lies above.) Where a neighbour is too close to tell, every vertex is
 // compared with the plain bound. Returns the tier that proved it, or nothing; doubles only.
 std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d& direction,
                                              VertexPair support);
@@ -33,8 +34,8 @@ std::optional<Tier> ProveEnclosingTetrahedron(Signs* signs,
 std::optional<ExitFace> ProveExitFace(Signs* signs, const std::array<VertexPair, 3>& triangle);
 
 // The feature of one body that is extreme along the outward normal of `plane`, given a vertex of the
-// body that one of the plane's points uses; nothing when the vertex is not extreme, or (kFloat) when
-// a tie cannot be told.
+// body that one of the plane's points uses; nothing when the vertex is not extreme or not a corner, or
+// (kFloat) when a tie cannot be told.
 std::optional<Feature> SupportingFeature(Signs* signs, FacetPlane* plane, Body body, int vertex);
 
 FaceClass ClassOf(FeatureKind in_p, FeatureKind in_q);

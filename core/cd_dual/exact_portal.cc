@@ -74,7 +74,23 @@ class ExactPortalSearch {
     return {};
   }
 
-  // A vertex of the body that is extreme along n: a climb in doubles, finished by exact signs.
+  // The corner at the other end of the body's edge that leaves `corner` towards its neighbour k, past
+  // the vertices within that edge.
+  static int FollowEdge(const ConvexPolyhedron& shape, int corner, int k) {
+    int edge = shape.vertex_edges(corner)[k];
+    int v = shape.vertex_neighbors(corner)[k];
+    while (!shape.is_corner(v)) {
+      const auto edges = shape.vertex_edges(v);
+      std::size_t next = 0;
+      while (!shape.is_bend(edges[next]) || edges[next] == edge) ++next;
+      edge = edges[next];
+      v = shape.vertex_neighbors(v)[next];
+    }
+    return v;
+  }
+
+  // A corner of the body that is extreme along n: a climb in doubles, finished by exact signs. From
+  // corner to corner, for only there does a local maximum mean a global one.
   int Support(Body body, const DyadicVector& n) const {
     const ConvexPolyhedron& shape = body == Body::kP ? m_.p() : m_.q();
     const Eigen::Vector3d approximate = ToDirection(n);
@@ -84,13 +100,15 @@ class ExactPortalSearch {
     int vertex = SupportVertex(shape, local, -1, &counts_->climb_steps);
     for (bool moved = true; moved;) {
       moved = false;
-      for (const int neighbor : shape.vertex_neighbors(vertex)) {
-        if (IsFurther(body, n, approximate, neighbor, vertex)) {
-          vertex = neighbor;
-          ++counts_->climb_steps;
-          moved = true;
-          break;
+      const auto neighbors = shape.vertex_neighbors(vertex);
+      for (std::size_t k = 0; k < neighbors.size() && !moved; ++k) {
+        if (!shape.is_bend(shape.vertex_edges(vertex)[k]) ||
+            !IsFurther(body, n, approximate, neighbors[k], vertex)) {
+          continue;
         }
+        vertex = FollowEdge(shape, vertex, static_cast<int>(k));
+        ++counts_->climb_steps;
+        moved = true;
       }
     }
     return vertex;

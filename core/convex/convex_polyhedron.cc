@@ -101,6 +101,12 @@ Status CheckPlanes(const ConvexPolyhedron& body, const internal::Orientation& or
 
 }  // namespace
 
+bool ConvexPolyhedron::is_corner(int v) const {
+  int bends = 0;
+  for (const int e : vertex_edges(v)) bends += is_bend(e);
+  return bends >= 3;
+}
+
 Status ConvexPolyhedron::FindValidationError() const {
   if (Status status = CheckFaces(*this); !status.ok()) return status;
   if (Status status = CheckRings(*this); !status.ok()) return status;

@@ -66,6 +66,12 @@ class ConvexPolyhedron {
     return Range(data_->vertex_faces, data_->vertex_begin, v);
   }
 
+  // Whether the faces at edge e lie in different planes.
+  bool is_bend(int e) const { return facet_of_face(edge(e).left) != facet_of_face(edge(e).right); }
+  // Whether v is an extreme point: three or more bends meet there. At a corner the neighbours span the
+  // body's cone; at a vertex within an edge or a facet they need not.
+  bool is_corner(int v) const;
+
   // The face across edge e from face f.
   int face_across(int e, int f) const { return edge(e).left == f ? edge(e).right : edge(e).left; }
 

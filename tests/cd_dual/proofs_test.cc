@@ -120,6 +120,26 @@ TEST(ProveSeparatingDirection, DeclinesAFalseSupportThatWouldSeparate) {
   EXPECT_GT(tried, 1000);
 }
 
+TEST(SupportingFeature, DeclinesAVertexWithinAFacetThatTheBodyRisesAbove) {
+  // All neighbours of a vertex within a facet are level with it along the facet's normal, inward as
+  // well as outward; only outward is it extreme. Within an edge of a cube whose faces are single
+  // polygons, both neighbours are level along every direction across the edge.
+  for (const ConvexPolyhedron& cube :
+       {MustBuild(SubdividedCube(3, false)), MustBuild(CubeWithSplitEdges(2))}) {
+    MinkowskiDifference m(cube, cube, RelativePose());
+    Signs signs(m, Certainty::kExact);
+    for (int v = 0; v < cube.vertex_count(); ++v) {
+      if (cube.is_corner(v)) continue;
+      for (int f = 0; f < cube.face_count(); ++f) {
+        const auto& x = cube.face_plane(f);
+        // Inward along face f of P, with one vertex of Q: a plane that cuts or misses P's support.
+        FacetPlane plane = signs.Plane({VertexPair{x[0], 0}, {x[2], 0}, {x[1], 0}});
+        EXPECT_FALSE(SupportingFeature(&signs, &plane, Body::kP, v)) << v << " along -" << f;
+      }
+    }
+  }
+}
+
 TEST(ProveExitFace, DeclinesEveryTriangleButTheExit) {
   int proven = 0, declined = 0;
   for (const Placement& x : SmallPlacements(/*seed=*/34, 120)) {
