@@ -25,7 +25,8 @@ double Quotient(const Integer& a, const Integer& b, long exponent) {
   const double mantissa_a = mpz_get_d_2exp(&exponent_a, a.get_mpz_t());
   const double mantissa_b = mpz_get_d_2exp(&exponent_b, b.get_mpz_t());
   const long e = exponent_a - exponent_b + exponent;
-  return e < -1000 ? 0.0 : std::ldexp(mantissa_a / mantissa_b, static_cast<int>(std::min(e, 1023L)));
+  return e < -1000 ? 0.0
+                   : std::ldexp(mantissa_a / mantissa_b, static_cast<int>(std::min(e, 1023L)));
 }
 
 }  // namespace
@@ -88,10 +89,10 @@ void PlacedPair::Align(int exponent_d, int exponent_b, int exponent_u) {
 }
 
 // The bound. Let S = |p| + 3 |B| |q| + |t| for the largest sizes of coordinates and u = 2^-53. A
-// component of B is off by 4u of itself, of n by 2u, of t and c by 4u. B^T n: three products and two
-// sums, (4 + 2 + 3) u 3|B|; times q: (9 + 3) u 9 |B| |q|; n.p: 5u 3|p|; n.t and n.c: 9u 3|t| and
-// 9u 3|c|, |c| <= S; the three final sums: 3u 3S. Together below 36u S + 27u S + 9u S < 128u S; twice that,
-// should the host round in another mode.
+// component of B is off by 4u of itself, of n by 2u, of t and c by 4u. B^T n: three products and
+// two sums, (4 + 2 + 3) u 3|B|; times q: (9 + 3) u 9 |B| |q|; n.p: 5u 3|p|; n.t and n.c: 9u 3|t|
+// and 9u 3|c|, |c| <= S; the three final sums: 3u 3S. Together below 36u S + 27u S + 9u S < 128u S;
+// twice that, should the host round in another mode.
 void PlacedPair::SetDoubles(const RelativePose& pose) {
   if (pose.world().has_value()) {
     for (int i = 0; i < 3; ++i) {

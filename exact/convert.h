@@ -20,15 +20,15 @@
 
 namespace touchstone::exact {
 
-// A placed pair as exact integers, and in doubles with a bound for filters. The doubles of bodies and
-// pose are taken at their word. For a pose made from two world poses the truth is that of both world
-// images, x_p = Rp^-1 (Rq x_q + tq - tp); everything is then scaled by det Rp > 0, so that adj Rp
-// stands for the inverse and all stays integer.
+// A placed pair as exact integers, and in doubles with a bound for filters. The doubles of bodies
+// and pose are taken at their word. For a pose made from two world poses the truth is that of both
+// world images, x_p = Rp^-1 (Rq x_q + tq - tp); everything is then scaled by det Rp > 0, so that
+// adj Rp stands for the inverse and all stays integer.
 class PlacedPair {
  public:
   // Keeps references to the bodies' data.
-  PlacedPair(const ExactBodyData& p, const ExactBodyData& q, const RelativePose& pose, int interior_p,
-             int interior_q);
+  PlacedPair(const ExactBodyData& p, const ExactBodyData& q, const RelativePose& pose,
+             int interior_p, int interior_q);
 
   const ExactBodyData& p() const { return p_; }
   const ExactBodyData& q() const { return q_; }
@@ -56,8 +56,8 @@ class PlacedPair {
   mpq_class ToLengthSquared(const Integer& squared) const;
 
   // Doubles of the placement, in true units: x_p = rotation x_q + translation and c. Every number
-  // n.(p - rotation q - translation) or n.c that follows from them for a direction n with |n_i| <= 1,
-  // its components off by 2^-52 of themselves, is off by at most `error`.
+  // n.(p - rotation q - translation) or n.c that follows from them for a direction n with |n_i| <=
+  // 1, its components off by 2^-52 of themselves, is off by at most `error`.
   const Eigen::Matrix3d& rotation() const { return rotation_; }
   const Eigen::Vector3d& translation() const { return translation_; }
   const Eigen::Vector3d& c_double() const { return c_double_; }

@@ -113,7 +113,8 @@ std::vector<Loop> CanonicalFaces(std::vector<Loop> loops, const HullOptions& opt
       faces.push_back(std::move(loop));
       continue;
     }
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k) faces.push_back({loop[0], loop[k], loop[k + 1]});
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
+      faces.push_back({loop[0], loop[k], loop[k + 1]});
   }
   std::sort(faces.begin(), faces.end());
   return faces;
@@ -133,7 +134,8 @@ StatusOr<ConvexPolyhedron> ConvexHull(std::span<const Eigen::Vector3d> points,
     const Point point(x.x(), x.y(), x.z());
     if (first.emplace(point, static_cast<int>(i)).second) distinct.push_back(point);
   }
-  if (distinct.size() < 4) return Refuse(StatusCode::kTooFewVertices, "fewer than four distinct points");
+  if (distinct.size() < 4)
+    return Refuse(StatusCode::kTooFewVertices, "fewer than four distinct points");
   if (AllCoplanar(distinct)) return Refuse(StatusCode::kFlat, "all points lie in one plane");
   Mesh hull;
   CGAL::convex_hull_3(distinct.begin(), distinct.end(), hull);

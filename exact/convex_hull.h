@@ -18,11 +18,11 @@ struct HullOptions {
 
 // Returns the convex hull of `points`, built with exact predicates.
 //
-// The vertices are exactly the extreme points, their coordinates unchanged and in the order of their
-// first appearance in `points`; points within an edge or a face of the hull are left out. Each loop
-// starts at its smallest vertex and the faces are sorted, so that the answer depends on the points
-// and their order alone. Errors: kNonFinite (naming the point), kTooFewVertices (fewer than four
-// distinct points), kFlat, and whatever ConvexPolyhedron::Build refuses (kOutOfRange,
+// The vertices are exactly the extreme points, their coordinates unchanged and in the order of
+// their first appearance in `points`; points within an edge or a face of the hull are left out.
+// Each loop starts at its smallest vertex and the faces are sorted, so that the answer depends on
+// the points and their order alone. Errors: kNonFinite (naming the point), kTooFewVertices (fewer
+// than four distinct points), kFlat, and whatever ConvexPolyhedron::Build refuses (kOutOfRange,
 // kNoInteriorPoint). Complexity: expected O(n log n).
 StatusOr<ConvexPolyhedron> ConvexHull(std::span<const Eigen::Vector3d> points,
                                       const HullOptions& options = {});

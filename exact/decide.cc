@@ -11,8 +11,8 @@
 namespace touchstone::exact {
 namespace {
 
-// sign((v + e1 x + e2 y + e3 z) . m) for e1 >> e2 >> e3 > 0, infinitely small: the ray's direction moved
-// off every plane through c. Zero only for m = 0.
+// sign((v + e1 x + e2 y + e3 z) . m) for e1 >> e2 >> e3 > 0, infinitely small: the ray's direction
+// moved off every plane through c. Zero only for m = 0.
 int PerturbedSign(const IntegerVector& v, const IntegerVector& m) {
   if (const int sign = DotSign(v, m); sign != 0) return sign;
   for (const Integer& component : m) {
@@ -26,17 +26,18 @@ struct Portal {
   std::array<IntegerVector, 3> points;  // less c; counterclockwise seen from outside
 };
 
-// The triangle of P's boundary that the perturbed ray from P's interior point leaves P by, as points
-// of M: each vertex of P less Q's interior point. Faces are cut into fans; a triangle is crossed when
-// the ray lies on the inner side of the three planes through it and the interior point.
+// The triangle of P's boundary that the perturbed ray from P's interior point leaves P by, as
+// points of M: each vertex of P less Q's interior point. Faces are cut into fans; a triangle is
+// crossed when the ray lies on the inner side of the three planes through it and the interior
+// point.
 class FirstPortal {
  public:
   FirstPortal(const PlacedPair& pair, const IntegerVector& interior_p)
       : body_(pair.p()), pair_(pair), interior_(interior_p), v_(ToDirection(pair.v())) {
     const Eigen::Vector3d inner = ToDouble(interior_);
     reach_ = 2 * body_.max_coordinate;
-    // Six products of the direction (off by 2u) and two differences (u each, below the reach), with at
-    // most nine roundings each, sums included: 54u reach^2 < 2^-47 reach^2.
+    // Six products of the direction (off by 2u) and two differences (u each, below the reach), with
+    // at most nine roundings each, sums included: 54u reach^2 < 2^-47 reach^2.
     error_ = 0x1p-46 * reach_ * reach_;
     for (int i = 0; i < body_.vertex_count; ++i) {
       from_inner_.push_back(Eigen::Vector3d(body_.x[i], body_.y[i], body_.z[i]) - inner);
@@ -112,8 +113,8 @@ IntegerVector Push(const PlacedPair& pair, Portal* portal) {
 
 }  // namespace
 
-ExactDecision Decide(const ExactBody& p, const ExactBody& q, const RelativePose& pose, int interior_p,
-                     int interior_q) {
+ExactDecision Decide(const ExactBody& p, const ExactBody& q, const RelativePose& pose,
+                     int interior_p, int interior_q) {
   const PlacedPair pair(p.data(), q.data(), pose, interior_p, interior_q);
   ExactDecision decision;
   if (IsZero(pair.c())) {
@@ -136,7 +137,9 @@ ExactDecision Decide(const ExactBody& p, const ExactBody& q, const RelativePose&
   exit.face_class = ClassOf(pair, Supporting(pair, n)).value_or(FaceClass::kEdgeEdge);
   exit.triangle = portal->pairs;
   const int sign = cmp(ratio.denominator, ratio.numerator);  // of s - 1
-  decision.verdict = sign < 0 ? Verdict::kSeparate : sign == 0 ? Verdict::kTouch : Verdict::kOverlap;
+  decision.verdict = sign < 0    ? Verdict::kSeparate
+                     : sign == 0 ? Verdict::kTouch
+                                 : Verdict::kOverlap;
   decision.interior_distance = values.interior_distance.ToDouble();
   decision.exit = exit;
   return decision;

@@ -22,13 +22,13 @@ namespace touchstone::exact {
 
 // Where the ray from c through o leaves M.
 struct ExactExit {
-  mpq_class parameter;                    // s > 0, exact: below 1 separate, 1 touch, above 1 overlap
-  double signed_distance = 0.0;           // d, to the nearest double
-  double exit_travel = 0.0;               // g, to the nearest double
-  Eigen::Vector3d exit_point;             // each coordinate to the nearest double
-  double normal_cosine = 0.0;             // |n.c| / |c| for the unit normal n of the facet
-  FaceClass face_class;                   // by the dimensions of the two supporting features
-  std::array<VertexPair, 3> triangle;     // counterclockwise from outside; crossed by the ray
+  mpq_class parameter;                 // s > 0, exact: below 1 separate, 1 touch, above 1 overlap
+  double signed_distance = 0.0;        // d, to the nearest double
+  double exit_travel = 0.0;            // g, to the nearest double
+  Eigen::Vector3d exit_point;          // each coordinate to the nearest double
+  double normal_cosine = 0.0;          // |n.c| / |c| for the unit normal n of the facet
+  FaceClass face_class;                // by the dimensions of the two supporting features
+  std::array<VertexPair, 3> triangle;  // counterclockwise from outside; crossed by the ray
 };
 
 struct ExactDecision {
@@ -39,14 +39,15 @@ struct ExactDecision {
 };
 
 // The exact verdict of the placed bodies and the facet of M that the ray from
-// c = interior_point(interior_p) of P - (R interior_point(interior_q) of Q + t) through o leaves by.
+// c = interior_point(interior_p) of P - (R interior_point(interior_q) of Q + t) through o leaves
+// by.
 //
 // Algorithm: a triangle of points of M that the ray crosses is pushed outward by exact support
 // queries along its normal until nothing of M lies beyond its plane. The first triangle is the part
-// of P's boundary that the ray from P's own interior point leaves P by, shifted by Q's interior point.
-// The ray is perturbed symbolically, so that it never meets an edge, the crossing moves strictly
-// outward at every step, and no triangle comes twice: it ends. It uses no result of the core.
-// Requires interior points that are strictly interior (ExactBody::InteriorPointIsInterior).
+// of P's boundary that the ray from P's own interior point leaves P by, shifted by Q's interior
+// point. The ray is perturbed symbolically, so that it never meets an edge, the crossing moves
+// strictly outward at every step, and no triangle comes twice: it ends. It uses no result of the
+// core. Requires interior points that are strictly interior (ExactBody::InteriorPointIsInterior).
 // Complexity: O(m + n) a step, 10 to 30 steps in practice.
 ExactDecision Decide(const ExactBody& p, const ExactBody& q, const RelativePose& pose,
                      int interior_p = 0, int interior_q = 0);

@@ -109,9 +109,9 @@ void ExactBodyData::BuildEdgeVectors() const {
   }
 }
 
-// Strictly behind the face's plane: in doubles where the bound allows. The determinant of three differences
-// of coordinates up to X has six products below 8 X^3, each with at most 8 roundings, all sums included:
-// 384u X^3 < 2^-44 X^3.
+// Strictly behind the face's plane: in doubles where the bound allows. The determinant of three
+// differences of coordinates up to X has six products below 8 X^3, each with at most 8 roundings,
+// all sums included: 384u X^3 < 2^-44 X^3.
 bool ExactBodyData::IsBehind(int f, int i) const {
   const std::span<const int> loop = face(f);
   if (max_coordinate > 1e-80 && max_coordinate < 1e80) {

@@ -11,12 +11,12 @@ namespace touchstone::exact {
 
 struct ExactBodyData;
 
-// A body as the exact half sees it: its vertices and interior points as integers over a common power
-// of two, its faces as they were given, and what follows from those alone (edges, neighbours,
+// A body as the exact half sees it: its vertices and interior points as integers over a common
+// power of two, its faces as they were given, and what follows from those alone (edges, neighbours,
 // normals, the proof that its interior points are interior), each computed once, when first needed.
 //
-// Nothing else of the core's preprocessing is read. A copy shares the data; any number of threads may
-// use one. Keep it beside a body that many queries use: what was computed stays computed.
+// Nothing else of the core's preprocessing is read. A copy shares the data; any number of threads
+// may use one. Keep it beside a body that many queries use: what was computed stays computed.
 //
 // Edges are numbered in the order in which a walk over the faces 0, 1, ... and their loops first
 // meets them: step k of face f runs from face(f)[k] (the tail) to the next vertex (the head).

@@ -21,20 +21,20 @@ struct ExactEdge {
 
 struct Topology {
   std::vector<ExactEdge> edges;
-  std::vector<std::vector<int>> face_edges;      // edge k joins face(f)[k] to the next of the loop
-  std::vector<std::vector<int>> vertex_edges;    // by increasing number
-  std::vector<std::vector<int>> vertex_faces;    // by increasing number
+  std::vector<std::vector<int>> face_edges;    // edge k joins face(f)[k] to the next of the loop
+  std::vector<std::vector<int>> vertex_edges;  // by increasing number
+  std::vector<std::vector<int>> vertex_faces;  // by increasing number
 };
 
 struct FaceNormals {
-  std::vector<IntegerVector> exact;              // outward, any length
-  std::vector<std::array<int, 3>> plane;         // three vertices of the face, not collinear
-  std::vector<Eigen::Vector3d> direction;        // the same by ToDirection
+  std::vector<IntegerVector> exact;        // outward, any length
+  std::vector<std::array<int, 3>> plane;   // three vertices of the face, not collinear
+  std::vector<Eigen::Vector3d> direction;  // the same by ToDirection
 };
 
 struct EdgeVectors {
-  std::vector<IntegerVector> exact;              // head less tail
-  std::vector<Eigen::Vector3d> direction;        // the same by ToDirection
+  std::vector<IntegerVector> exact;        // head less tail
+  std::vector<Eigen::Vector3d> direction;  // the same by ToDirection
 };
 
 // What ExactBody knows. The first group is made at once, the rest when first asked for.
@@ -43,9 +43,9 @@ struct ExactBodyData {
 
   ConvexPolyhedron body;
   int vertex_count = 0, face_count = 0;
-  int exponent = 0;                              // coordinate = integer * 2^exponent
+  int exponent = 0;  // coordinate = integer * 2^exponent
   std::vector<IntegerVector> vertices;
-  std::vector<double> x, y, z;                   // the vertices again, by coordinate
+  std::vector<double> x, y, z;  // the vertices again, by coordinate
   double max_coordinate = 0.0;
   std::array<IntegerVector, 2> interior;
   std::array<Eigen::Vector3d, 2> interior_double;

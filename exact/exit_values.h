@@ -13,9 +13,9 @@ namespace touchstone::exact {
 // The numbers that follow from c and from where a plane of M meets the ray, to about 1e-75 of
 // themselves: ratio = 1/s is an exact fraction, and only |c| and |n| are square roots.
 struct ExitValues {
-  Real interior_distance;          // |c|
-  Real signed_distance;            // d = (ratio - 1) / |c|
-  Real plane_distance;             // from c to the plane, (h(n) - n.c) / |n|
+  Real interior_distance;  // |c|
+  Real signed_distance;    // d = (ratio - 1) / |c|
+  Real plane_distance;     // from c to the plane, (h(n) - n.c) / |n|
   // For ratio > 0, where the ray meets the plane at all; zero otherwise.
   Real parameter;                  // s
   Real exit_travel;                // g = (1 - s) |c|

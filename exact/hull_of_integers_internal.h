@@ -9,8 +9,8 @@
 
 namespace touchstone::exact {
 
-// Triangles of the convex hull of distinct points that span space, as indices, counterclockwise from
-// outside. CGAL stays behind this one function: it compiles slowly.
+// Triangles of the convex hull of distinct points that span space, as indices, counterclockwise
+// from outside. CGAL stays behind this one function: it compiles slowly.
 std::vector<std::array<int, 3>> HullOfIntegers(const std::vector<IntegerVector>& points);
 
 }  // namespace touchstone::exact

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Exact arithmetic: every double of a query is an integer times a power of two, so after scaling to a
-// common power every predicate is the sign of a polynomial of integers. No division, no gcd.
+// Exact arithmetic: every double of a query is an integer times a power of two, so after scaling to
+// a common power every predicate is the sign of a polynomial of integers. No division, no gcd.
 #ifndef TOUCHSTONE_EXACT_INTEGER_H_
 #define TOUCHSTONE_EXACT_INTEGER_H_
 

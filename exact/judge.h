@@ -51,10 +51,9 @@ struct JudgeOptions {
 // `pose`; empty when the result stands. Every statement is checked by exact signs; doubles only
 // decide what an error bound lets them decide.
 //
-// kPublished is held to what the paper claims of it: its verdict, its face as the maximum over F(M),
-// and all three phases as maxima; but it owes no certificate, and "overlap" includes touch, as in the
-// paper's definition 1.
-// Complexity: O(m + n), with the phase maxima O(mn).
+// kPublished is held to what the paper claims of it: its verdict, its face as the maximum over
+// F(M), and all three phases as maxima; but it owes no certificate, and "overlap" includes touch,
+// as in the paper's definition 1. Complexity: O(m + n), with the phase maxima O(mn).
 std::vector<Finding> Judge(const ExactBody& p, const ExactBody& q, const RelativePose& pose,
                            const CollideResult& result, const JudgeOptions& options = {});
 

@@ -23,8 +23,9 @@ std::optional<Ratio> Maximum(const std::vector<MinkowskiFacet>& facets, const Ke
 
 ExactPlane MakePlane(const IntegerVector& normal, const Integer& offset) {
   const Integer divisor = gcd(gcd(gcd(normal[0], normal[1]), normal[2]), offset);
-  return {{Integer(normal[0] / divisor), Integer(normal[1] / divisor), Integer(normal[2] / divisor)},
-          Integer(offset / divisor)};
+  return {
+      {Integer(normal[0] / divisor), Integer(normal[1] / divisor), Integer(normal[2] / divisor)},
+      Integer(offset / divisor)};
 }
 
 Ratio MinkowskiDifference::ExitRatio() const {

@@ -39,8 +39,8 @@ struct MinkowskiDifference {
   std::vector<IntegerVector> vertices;
   std::vector<MinkowskiFacet> facets;
 
-  // The largest ratio over all facets: of the exit face. Over the facets of a class as the paper counts
-  // them: F_fv is all that a face of P takes part in, F_vf likewise for Q, F_ee is EdgeEdge.
+  // The largest ratio over all facets: of the exit face. Over the facets of a class as the paper
+  // counts them: F_fv is all that a face of P takes part in, F_vf likewise for Q, F_ee is EdgeEdge.
   Ratio ExitRatio() const;
   std::optional<Ratio> FaceVertexMaximum() const;
   std::optional<Ratio> VertexFaceMaximum() const;

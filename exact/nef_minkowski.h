@@ -7,8 +7,8 @@
 
 namespace touchstone::exact {
 
-// M by CGAL::minkowski_sum_3 of the Nef polyhedra of P and of Q reflected: slow (tenths of a second for
-// n = 8), and the construction tier's own check.
+// M by CGAL::minkowski_sum_3 of the Nef polyhedra of P and of Q reflected: slow (tenths of a second
+// for n = 8), and the construction tier's own check.
 MinkowskiDifference NefMinkowski(const PlacedPair& pair);
 
 }  // namespace touchstone::exact

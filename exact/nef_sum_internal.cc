@@ -82,7 +82,8 @@ NefSum SumOfNefPolyhedra(const IntegerPolyhedron& a, const IntegerPolyhedron& b)
   }
   for (Nef::Vertex_const_iterator v = sum.vertices_begin(); v != sum.vertices_end(); ++v) {
     // Sums of whole points: the denominators are one.
-    result.points.push_back({ToRational(v->point().x()).get_num(), ToRational(v->point().y()).get_num(),
+    result.points.push_back({ToRational(v->point().x()).get_num(),
+                             ToRational(v->point().y()).get_num(),
                              ToRational(v->point().z()).get_num()});
   }
   return result;

@@ -20,8 +20,8 @@ struct NefSum {
   std::vector<IntegerVector> points;
 };
 
-// The Minkowski sum by CGAL::minkowski_sum_3. CGAL stays behind this one function: it compiles for a
-// minute.
+// The Minkowski sum by CGAL::minkowski_sum_3. CGAL stays behind this one function: it compiles for
+// a minute.
 NefSum SumOfNefPolyhedra(const IntegerPolyhedron& a, const IntegerPolyhedron& b);
 
 }  // namespace touchstone::exact

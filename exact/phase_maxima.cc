@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Faces whose ratio may be the largest. A ratio a / b is known from doubles with |a - exact| <= error_a,
-// |b - exact| <= error_b and b > 0 exactly; quotients are widened by 2^-48 for their own rounding.
+// Faces whose ratio may be the largest. A ratio a / b is known from doubles with |a - exact| <=
+// error_a, |b - exact| <= error_b and b > 0 exactly; quotients are widened by 2^-48 for their own
+// rounding.
 class Contenders {
  public:
   void Add(double a, double error_a, double b, double error_b, int i, int j = -1) {
@@ -63,13 +64,15 @@ double Largest(const ExactBodyData& body, const Eigen::Vector3d& n) {
   return largest;
 }
 
-Eigen::Vector3d Vertex(const ExactBodyData& body, int i) { return {body.x[i], body.y[i], body.z[i]}; }
+Eigen::Vector3d Vertex(const ExactBodyData& body, int i) {
+  return {body.x[i], body.y[i], body.z[i]};
+}
 
 // n.c for |n_i| <= 1 with components off by 2^-43: the same derivation as PlacedPair::error.
 double ErrorOfC(const PlacedPair& pair) { return 0x1p-41 * pair.c_double().cwiseAbs().maxCoeff(); }
 
-// Normals of Q's faces in P's frame, halved so that no component exceeds 1: cof(R) n. Entries of the
-// cofactors are off by less than 32u, components of the result by 3 (32 + 8)u < 2^-46; so
+// Normals of Q's faces in P's frame, halved so that no component exceeds 1: cof(R) n. Entries of
+// the cofactors are off by less than 32u, components of the result by 3 (32 + 8)u < 2^-46; so
 // values n.x that follow are off by less than 4 PlacedPair::error (2^-43 of the size).
 std::vector<Eigen::Vector3d> NormalsOfQ(const PlacedPair& pair) {
   const Eigen::Matrix3d& r = pair.rotation();
@@ -153,11 +156,11 @@ IntegerVector EdgeEdgeNormal(const PlacedPair& pair, int e_p, int e_q) {
   return DotSign(n, pair.FromC(tails)) < 0 ? -n : n;
 }
 
-// The four determinants of section 4.3 by way of the edges. Edge u between the faces with normals a (left)
-// and b (right) of a convex body runs along a x b, and Q-bar's normals c = -n_left, d = -n_right have
-// c x d along Q's own edge w. Hence |cba| ~ -u.c, |dba| ~ -u.d, |adc| ~ -w.a, |bdc| ~ -w.b.
-// Between coplanar faces the arc is a point and the determinants vanish; here w.a = w.b, which fails
-// condition (2) all the same.
+// The four determinants of section 4.3 by way of the edges. Edge u between the faces with normals a
+// (left) and b (right) of a convex body runs along a x b, and Q-bar's normals c = -n_left, d =
+// -n_right have c x d along Q's own edge w. Hence |cba| ~ -u.c, |dba| ~ -u.d, |adc| ~ -w.a, |bdc| ~
+// -w.b. Between coplanar faces the arc is a point and the determinants vanish; here w.a = w.b,
+// which fails condition (2) all the same.
 bool ArcsCross(const PlacedPair& pair, int e_p, int e_q) {
   const ExactEdge& edge_p = pair.p().topology().edges[e_p];
   const ExactEdge& edge_q = pair.q().topology().edges[e_q];
@@ -213,8 +216,8 @@ std::optional<Ratio> EdgeEdgeMaximum(const PlacedPair& pair) {
     const Eigen::Vector3d n =
         0.25 * pair.p().edge_vectors().direction[e_p].cross(arcs.direction_q(e_q));
     const VertexPair tail = tails(e_p, e_q);
-    const Eigen::Vector3d x = Vertex(pair.p(), tail.p) -
-                              pair.rotation() * Vertex(pair.q(), tail.q) - pair.translation();
+    const Eigen::Vector3d x =
+        Vertex(pair.p(), tail.p) - pair.rotation() * Vertex(pair.q(), tail.q) - pair.translation();
     const double a = -n.dot(pair.c_double()), b = n.dot(x) + a;
     contenders.Add(b < 0 ? -a : a, error_a, std::abs(b), error_b, e_p, e_q);
   });

@@ -9,13 +9,13 @@
 
 namespace touchstone::exact {
 
-// The largest ratio 1 + d |c| = 1/s over each of the paper's classes of faces of M, exact. As d grows
-// with the ratio, these are the maxima that theorems 1, 2 and 6 speak of.
+// The largest ratio 1 + d |c| = 1/s over each of the paper's classes of faces of M, exact. As d
+// grows with the ratio, these are the maxima that theorems 1, 2 and 6 speak of.
 //
 // F_fv: every face of P with its supporting vertex of Q-bar, whatever else is parallel to it; F_vf
-// likewise; F_ee: the edge pairs whose Gaussian arcs cross properly, none when there are none. Found by
-// looking at all faces and edge pairs in doubles, and exactly at those that the bound leaves.
-// Require c inside M. Complexity: O(mn).
+// likewise; F_ee: the edge pairs whose Gaussian arcs cross properly, none when there are none.
+// Found by looking at all faces and edge pairs in doubles, and exactly at those that the bound
+// leaves. Require c inside M. Complexity: O(mn).
 Ratio FaceVertexMaximum(const PlacedPair& pair);
 Ratio VertexFaceMaximum(const PlacedPair& pair);
 std::optional<Ratio> EdgeEdgeMaximum(const PlacedPair& pair);

@@ -48,7 +48,8 @@ class Twin {
 
  private:
   TwinFace FaceVertex(int f) const {
-    TwinFace face{FaceClass::kFaceVertex, {FeatureKind::kFace, f}, {}, FaceVertexNormal(pair_, f), {}};
+    TwinFace face{
+        FaceClass::kFaceVertex, {FeatureKind::kFace, f}, {}, FaceVertexNormal(pair_, f), {}};
     const int v = ExtremeVertex(q_, -pair_.ToQ(face.normal));
     face.feature_q = {FeatureKind::kVertex, v};
     face.ratio = RatioOf(pair_, face.normal, {p_.face(f)[0], v});
@@ -56,7 +57,8 @@ class Twin {
   }
 
   TwinFace VertexFace(int f) const {
-    TwinFace face{FaceClass::kVertexFace, {}, {FeatureKind::kFace, f}, VertexFaceNormal(pair_, f), {}};
+    TwinFace face{
+        FaceClass::kVertexFace, {}, {FeatureKind::kFace, f}, VertexFaceNormal(pair_, f), {}};
     const int v = ExtremeVertex(p_, face.normal);
     face.feature_p = {FeatureKind::kVertex, v};
     face.ratio = RatioOf(pair_, face.normal, {v, q_.face(f)[0]});
@@ -64,8 +66,11 @@ class Twin {
   }
 
   TwinFace EdgeEdge(int e_p, int e_q) const {
-    TwinFace face{FaceClass::kEdgeEdge, {FeatureKind::kEdge, e_p}, {FeatureKind::kEdge, e_q},
-                  EdgeEdgeNormal(pair_, e_p, e_q), {}};
+    TwinFace face{FaceClass::kEdgeEdge,
+                  {FeatureKind::kEdge, e_p},
+                  {FeatureKind::kEdge, e_q},
+                  EdgeEdgeNormal(pair_, e_p, e_q),
+                  {}};
     face.ratio =
         RatioOf(pair_, face.normal, {p_.topology().edges[e_p].tail, q_.topology().edges[e_q].tail});
     return face;
@@ -81,14 +86,16 @@ class Twin {
   }
 
   TwinFace SearchFaceVertex() {
-    return Ascend(Phase::kFaceVertex, p_, FirstFace(), [this](int f) { return FaceVertex(f); },
-                  [](const TwinFace& face) { return face.feature_p.index; });
+    return Ascend(
+        Phase::kFaceVertex, p_, FirstFace(), [this](int f) { return FaceVertex(f); },
+        [](const TwinFace& face) { return face.feature_p.index; });
   }
 
   TwinFace SearchVertexFace(int vertex_q) {
-    return Ascend(Phase::kVertexFace, q_, q_.topology().vertex_faces[vertex_q].front(),
-                  [this](int f) { return VertexFace(f); },
-                  [](const TwinFace& face) { return face.feature_q.index; });
+    return Ascend(
+        Phase::kVertexFace, q_, q_.topology().vertex_faces[vertex_q].front(),
+        [this](int f) { return VertexFace(f); },
+        [](const TwinFace& face) { return face.feature_q.index; });
   }
 
   // SEARCH-FV, and SEARCH-VF: steepest ascent over the adjacency of one body's faces.
@@ -109,11 +116,13 @@ class Twin {
         if (Compare(neighbours[j].ratio, neighbours[k].ratio) > 0) k = j;
       }
       const bool better = Compare(neighbours[k].ratio, best.ratio) > 0;
-      for (std::size_t j = 0; j < neighbours.size(); ++j) Visit(phase, neighbours[j], better && j == k);
+      for (std::size_t j = 0; j < neighbours.size(); ++j)
+        Visit(phase, neighbours[j], better && j == k);
       if (!better) break;
       best = neighbours[k];
     }
-    Report(static_cast<int>(phase) - static_cast<int>(Phase::kFaceVertex), best, PhaseClaim::kMaximum);
+    Report(static_cast<int>(phase) - static_cast<int>(Phase::kFaceVertex), best,
+           PhaseClaim::kMaximum);
     return best;
   }
 
@@ -180,7 +189,8 @@ class Twin {
   }
 
   void Report(int phase, const TwinFace& face, PhaseClaim claim) {
-    out_.result.phases[phase] = {claim, face.face_class, face.feature_p, face.feature_q, Distance(face)};
+    out_.result.phases[phase] = {claim, face.face_class, face.feature_p, face.feature_q,
+                                 Distance(face)};
     out_.phase_ratio[phase] = ToRational(face.ratio);
   }
 
@@ -263,14 +273,18 @@ std::vector<Finding> JudgeTwin(const ExactBody& p, const ExactBody& q, const Rel
   if (options.early_exit || !truth.exit.has_value()) return findings;
   const PlacedPair pair(p.data(), q.data(), pose, interior_p, interior_q);
   if (*twin.phase_ratio[0] != ToRational(FaceVertexMaximum(pair))) {
-    findings.push_back({FindingKind::kPhaseNotMaximal, "SEARCH-FV ended below the maximum of its class"});
+    findings.push_back(
+        {FindingKind::kPhaseNotMaximal, "SEARCH-FV ended below the maximum of its class"});
   }
   if (*twin.phase_ratio[1] != ToRational(VertexFaceMaximum(pair))) {
-    findings.push_back({FindingKind::kPhaseNotMaximal, "SEARCH-VF ended below the maximum of its class"});
+    findings.push_back(
+        {FindingKind::kPhaseNotMaximal, "SEARCH-VF ended below the maximum of its class"});
   }
   if (twin.ratio != 1 / truth.exit->parameter) {
-    findings.push_back({FindingKind::kPhaseNotMaximal, "SEARCH-EE ended below the maximum over F(M)"});
-    findings.push_back({FindingKind::kNotOptimal, "the final face is not the one the ray leaves by"});
+    findings.push_back(
+        {FindingKind::kPhaseNotMaximal, "SEARCH-EE ended below the maximum over F(M)"});
+    findings.push_back(
+        {FindingKind::kNotOptimal, "the final face is not the one the ray leaves by"});
   }
   return findings;
 }

@@ -7,8 +7,9 @@ namespace touchstone::exact {
 namespace {
 
 // Vertices that may be extreme. With u = 2^-53, components of the direction are off by 2u of
-// themselves, the sum of three products by 3u: 5u sum |n_i x_i| <= 5u |n|_1 X a value, hence 10u for a
-// difference; four times that allows for the other rounding modes and for the bound's own rounding.
+// themselves, the sum of three products by 3u: 5u sum |n_i x_i| <= 5u |n|_1 X a value, hence 10u
+// for a difference; four times that allows for the other rounding modes and for the bound's own
+// rounding.
 void Candidates(const ExactBodyData& body, const IntegerVector& n, std::vector<int>* candidates) {
   thread_local std::vector<double> values;
   const Eigen::Vector3d d = ToDirection(n);
@@ -84,10 +85,9 @@ std::optional<FaceClass> ClassOf(const PlacedPair& pair, const SupportingFeature
   }
   if (dimension_q == 2) return dimension_p == 0 ? FaceClass::kVertexFace : FaceClass::kEdgeFace;
   if (dimension_p == 0 || dimension_q == 0) return std::nullopt;
-  const IntegerVector edge_p =
-      pair.p().vertices[features.p[1]] - pair.p().vertices[features.p[0]];
-  const IntegerVector edge_q = pair.VectorFromQ(pair.q().vertices[features.q[1]] -
-                                                pair.q().vertices[features.q[0]]);
+  const IntegerVector edge_p = pair.p().vertices[features.p[1]] - pair.p().vertices[features.p[0]];
+  const IntegerVector edge_q =
+      pair.VectorFromQ(pair.q().vertices[features.q[1]] - pair.q().vertices[features.q[0]]);
   if (IsZero(Cross(edge_p, edge_q))) return std::nullopt;
   return FaceClass::kEdgeEdge;
 }

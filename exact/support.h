@@ -10,8 +10,8 @@
 
 namespace touchstone::exact {
 
-// Sets `extreme` to all vertices of the body that maximise n.x, in increasing order, exactly: a scan
-// in doubles keeps those within the error bound of the largest value, exact signs do the rest.
+// Sets `extreme` to all vertices of the body that maximise n.x, in increasing order, exactly: a
+// scan in doubles keeps those within the error bound of the largest value, exact signs do the rest.
 // n is in the body's own frame. Complexity: O(n).
 void ExtremeVertices(const ExactBodyData& body, const IntegerVector& n, std::vector<int>* extreme);
 // The one of smallest index.
@@ -30,7 +30,8 @@ int Dimension(const ExactBodyData& body, const std::vector<int>& vertices);
 // The class of the facet with these supporting features; nothing when they span no plane.
 std::optional<FaceClass> ClassOf(const PlacedPair& pair, const SupportingFeatures& features);
 
-// 1 + d |c| = 1/s for the supporting plane of M with normal n: n.v / (h(n) - n.c). Requires c interior.
+// 1 + d |c| = 1/s for the supporting plane of M with normal n: n.v / (h(n) - n.c). Requires c
+// interior.
 Ratio RatioOf(const PlacedPair& pair, const IntegerVector& n, const VertexPair& supporting);
 Ratio RatioOf(const PlacedPair& pair, const IntegerVector& n);
 

@@ -25,9 +25,11 @@ const char* CheckDirection(const PlacedPair& pair, const Eigen::Vector3d& direct
   return CheckSeparation(pair, ToInteger(direction, exponent));
 }
 
-// o - c = v = sum li ai with ai = vi - c: Cramer's rule, all signs relative to that of det [a1 a2 a3].
+// o - c = v = sum li ai with ai = vi - c: Cramer's rule, all signs relative to that of det [a1 a2
+// a3].
 const char* CheckTetrahedron(const PlacedPair& pair, const std::array<VertexPair, 3>& points) {
-  const IntegerVector a = pair.FromC(points[0]), b = pair.FromC(points[1]), c = pair.FromC(points[2]);
+  const IntegerVector a = pair.FromC(points[0]), b = pair.FromC(points[1]),
+                      c = pair.FromC(points[2]);
   const IntegerVector ab = Cross(a, b);
   const Integer volume = Dot(ab, c);
   const int sign = sgn(volume);
@@ -58,11 +60,15 @@ const char* CheckTouch(const PlacedPair& pair, const std::array<VertexPair, 3>& 
 Verdict ProvenBy(CertificateKind kind) {
   switch (kind) {
     case CertificateKind::kSeparatingDirection:
-    case CertificateKind::kSeparatingFacet: return Verdict::kSeparate;
+    case CertificateKind::kSeparatingFacet:
+      return Verdict::kSeparate;
     case CertificateKind::kEnclosingTetrahedron:
-    case CertificateKind::kCoincidentInterior: return Verdict::kOverlap;
-    case CertificateKind::kTouchingFacet: return Verdict::kTouch;
-    case CertificateKind::kNone: break;
+    case CertificateKind::kCoincidentInterior:
+      return Verdict::kOverlap;
+    case CertificateKind::kTouchingFacet:
+      return Verdict::kTouch;
+    case CertificateKind::kNone:
+      break;
   }
   return Verdict::kUndecided;
 }
@@ -71,15 +77,20 @@ Verdict ProvenBy(CertificateKind kind) {
 const char* Refute(const PlacedPair& pair, const Certificate& certificate) {
   const std::array<VertexPair, 3>& points = certificate.points;
   switch (certificate.kind) {
-    case CertificateKind::kNone: return "absent";
-    case CertificateKind::kSeparatingDirection: return CheckDirection(pair, certificate.direction);
+    case CertificateKind::kNone:
+      return "absent";
+    case CertificateKind::kSeparatingDirection:
+      return CheckDirection(pair, certificate.direction);
     case CertificateKind::kSeparatingFacet: {
       const IntegerVector a = pair.FromC(points[0]);
       return CheckSeparation(pair, Cross(pair.FromC(points[1]) - a, pair.FromC(points[2]) - a));
     }
-    case CertificateKind::kEnclosingTetrahedron: return CheckTetrahedron(pair, points);
-    case CertificateKind::kCoincidentInterior: return IsZero(pair.c()) ? nullptr : "c is not o";
-    case CertificateKind::kTouchingFacet: return CheckTouch(pair, points);
+    case CertificateKind::kEnclosingTetrahedron:
+      return CheckTetrahedron(pair, points);
+    case CertificateKind::kCoincidentInterior:
+      return IsZero(pair.c()) ? nullptr : "c is not o";
+    case CertificateKind::kTouchingFacet:
+      return CheckTouch(pair, points);
   }
   return "of no known kind";
 }

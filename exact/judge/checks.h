@@ -25,16 +25,23 @@ class JudgeContext {
  public:
   JudgeContext(const ExactBody& p, const ExactBody& q, const RelativePose& pose,
                const CollideResult& judged, const JudgeOptions& how, std::vector<Finding>* findings)
-      : result(judged), options(how),
+      : result(judged),
+        options(how),
         pair(p.data(), q.data(), pose, judged.interior_p, judged.interior_q),
-        p_(p), q_(q), pose_(pose), findings_(findings) {}
+        p_(p),
+        q_(q),
+        pose_(pose),
+        findings_(findings) {}
 
-  void Add(FindingKind kind, std::string detail) const { findings_->push_back({kind, std::move(detail)}); }
+  void Add(FindingKind kind, std::string detail) const {
+    findings_->push_back({kind, std::move(detail)});
+  }
 
   bool published() const { return options.search == Search::kPublished; }
   // Both interior points are strictly interior, proven.
   bool InteriorPointsAreInterior() const {
-    return p_.InteriorPointIsInterior(result.interior_p) && q_.InteriorPointIsInterior(result.interior_q);
+    return p_.InteriorPointIsInterior(result.interior_p) &&
+           q_.InteriorPointIsInterior(result.interior_q);
   }
   // The truth, from scratch; computed when first asked for.
   const ExactDecision& Decision() const;

@@ -20,10 +20,12 @@ void CheckConstruction(const JudgeContext& context) {
   const MinkowskiDifference m = ConvexMinkowski(context.pair);
   const Ratio exit = m.ExitRatio();
   const int sign = cmp(exit.numerator, exit.denominator);  // of 1/s - 1
-  const Verdict truth =
-      sign > 0 ? Verdict::kSeparate : sign == 0 ? Verdict::kTouch : Verdict::kOverlap;
+  const Verdict truth = sign > 0    ? Verdict::kSeparate
+                        : sign == 0 ? Verdict::kTouch
+                                    : Verdict::kOverlap;
   const Verdict verdict = context.result.verdict;
-  const bool shares = context.published() && verdict == Verdict::kOverlap && truth == Verdict::kTouch;
+  const bool shares =
+      context.published() && verdict == Verdict::kOverlap && truth == Verdict::kTouch;
   if (verdict != Verdict::kUndecided && verdict != truth && !shares) {
     context.Add(FindingKind::kWrongVerdict, "construction: is " + std::string(ToString(truth)));
   }
@@ -31,9 +33,8 @@ void CheckConstruction(const JudgeContext& context) {
     const IntegerVector& n = context.face->normal;
     const IntegerVector a = context.pair.Difference(context.result.face->triangle[0]);
     const ExactPlane plane = MakePlane(n, Dot(n, a));
-    const bool found = std::any_of(m.facets.begin(), m.facets.end(), [&](const MinkowskiFacet& f) {
-      return f.plane == plane;
-    });
+    const bool found = std::any_of(m.facets.begin(), m.facets.end(),
+                                   [&](const MinkowskiFacet& f) { return f.plane == plane; });
     if (!found) context.Add(FindingKind::kNotAFace, "construction: M has no such facet");
     if (context.face->crossed && Compare(context.face->ratio, exit) != 0) {
       context.Add(FindingKind::kNotOptimal, "construction: another facet's distance is larger");

@@ -15,12 +15,18 @@ struct Dimensions {
 
 Dimensions DimensionsOf(FaceClass face_class) {
   switch (face_class) {
-    case FaceClass::kFaceVertex: return {2, 0};
-    case FaceClass::kVertexFace: return {0, 2};
-    case FaceClass::kEdgeEdge: return {1, 1};
-    case FaceClass::kFaceEdge: return {2, 1};
-    case FaceClass::kEdgeFace: return {1, 2};
-    case FaceClass::kFaceFace: return {2, 2};
+    case FaceClass::kFaceVertex:
+      return {2, 0};
+    case FaceClass::kVertexFace:
+      return {0, 2};
+    case FaceClass::kEdgeEdge:
+      return {1, 1};
+    case FaceClass::kFaceEdge:
+      return {2, 1};
+    case FaceClass::kEdgeFace:
+      return {1, 2};
+    case FaceClass::kFaceFace:
+      return {2, 2};
   }
   return {-1, -1};
 }
@@ -41,9 +47,8 @@ std::vector<int> VerticesOf(const ExactBodyData& body, const Feature& feature) {
 }
 
 bool Includes(const std::vector<int>& sorted, const std::vector<int>& some) {
-  return std::all_of(some.begin(), some.end(), [&](int i) {
-    return std::binary_search(sorted.begin(), sorted.end(), i);
-  });
+  return std::all_of(some.begin(), some.end(),
+                     [&](int i) { return std::binary_search(sorted.begin(), sorted.end(), i); });
 }
 
 // The edge vectors of a feature's outline.
@@ -52,20 +57,22 @@ std::vector<IntegerVector> Sides(const ExactBodyData& body, const std::vector<in
   if (vertices.size() < 2) return sides;
   const std::size_t count = vertices.size() == 2 ? 1 : vertices.size();
   for (std::size_t k = 0; k < count; ++k) {
-    sides.push_back(body.vertices[vertices[(k + 1) % vertices.size()]] - body.vertices[vertices[k]]);
+    sides.push_back(body.vertices[vertices[(k + 1) % vertices.size()]] -
+                    body.vertices[vertices[k]]);
   }
   return sides;
 }
 
-// Whether the exit point lies in {a - b : a in P's feature, b in Q's}, both in the supporting plane with
-// normal n: it does iff no line along a side of either has the whole part on its one side and the
-// point strictly on the other. All in coordinates less c, scaled by the ratio's numerator so that the
-// exit point, v * denominator / numerator, is whole.
+// Whether the exit point lies in {a - b : a in P's feature, b in Q's}, both in the supporting plane
+// with normal n: it does iff no line along a side of either has the whole part on its one side and
+// the point strictly on the other. All in coordinates less c, scaled by the ratio's numerator so
+// that the exit point, v * denominator / numerator, is whole.
 bool PartContainsExitPoint(const PlacedPair& pair, const IntegerVector& n, const Ratio& ratio,
                            const std::vector<int>& vertices_p, const std::vector<int>& vertices_q) {
   const IntegerVector exit = ratio.denominator * pair.v();
   std::vector<IntegerVector> sides = Sides(pair.p(), vertices_p);
-  for (const IntegerVector& side : Sides(pair.q(), vertices_q)) sides.push_back(pair.VectorFromQ(side));
+  for (const IntegerVector& side : Sides(pair.q(), vertices_q))
+    sides.push_back(pair.VectorFromQ(side));
   std::vector<IntegerVector> sums;
   for (const int a : vertices_p) {
     for (const int b : vertices_q) sums.push_back(pair.FromC({a, b}));
@@ -88,7 +95,8 @@ void CheckClass(const JudgeContext& context, const SupportingFeatures& supportin
   const ExitFace& face = *context.result.face;
   const std::string name(ToString(face.face_class));
   const Dimensions claimed = DimensionsOf(face.face_class);
-  if (DimensionOf(face.feature_p.kind) != claimed.p || DimensionOf(face.feature_q.kind) != claimed.q) {
+  if (DimensionOf(face.feature_p.kind) != claimed.p ||
+      DimensionOf(face.feature_q.kind) != claimed.q) {
     return context.Add(FindingKind::kWrongClass, "the features named are not those of " + name);
   }
   const std::optional<FaceClass> exact = ClassOf(context.pair, supporting);
@@ -111,7 +119,8 @@ void CheckClass(const JudgeContext& context, const SupportingFeatures& supportin
       return context.Add(FindingKind::kWrongClass, "the edges named are parallel; is " + is);
     }
   }
-  // The paper knows three classes only, and its F_fv holds a face of P with any one supporting vertex.
+  // The paper knows three classes only, and its F_fv holds a face of P with any one supporting
+  // vertex.
   if (context.published()) return;
   if (!PartContainsExitPoint(context.pair, context.face->normal, context.face->ratio, vertices_p,
                              vertices_q)) {

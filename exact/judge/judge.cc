@@ -18,10 +18,12 @@ bool PairsInRange(const std::array<VertexPair, 3>& pairs, const ExactBodyData& p
 
 bool FeatureInRange(const Feature& feature, const ExactBodyData& body) {
   switch (feature.kind) {
-    case FeatureKind::kVertex: return InRange(feature.index, body.vertex_count);
+    case FeatureKind::kVertex:
+      return InRange(feature.index, body.vertex_count);
     case FeatureKind::kEdge:
       return InRange(feature.index, static_cast<int>(body.topology().edges.size()));
-    case FeatureKind::kFace: return InRange(feature.index, body.face_count);
+    case FeatureKind::kFace:
+      return InRange(feature.index, body.face_count);
   }
   return false;
 }
@@ -30,18 +32,30 @@ bool FeatureInRange(const Feature& feature, const ExactBodyData& body) {
 
 std::string_view ToString(FindingKind kind) {
   switch (kind) {
-    case FindingKind::kWrongVerdict: return "wrong_verdict";
-    case FindingKind::kUndecided: return "undecided";
-    case FindingKind::kBadCertificate: return "bad_certificate";
-    case FindingKind::kNotAFace: return "not_a_face";
-    case FindingKind::kWrongClass: return "wrong_class";
-    case FindingKind::kValueOutOfBounds: return "value_out_of_bounds";
-    case FindingKind::kLooseBound: return "loose_bound";
-    case FindingKind::kNotOptimal: return "not_optimal";
-    case FindingKind::kPhaseNotMaximal: return "phase_not_maximal";
-    case FindingKind::kBadCounters: return "bad_counters";
-    case FindingKind::kUnentitledExit: return "unentitled_exit";
-    case FindingKind::kMissingPart: return "missing_part";
+    case FindingKind::kWrongVerdict:
+      return "wrong_verdict";
+    case FindingKind::kUndecided:
+      return "undecided";
+    case FindingKind::kBadCertificate:
+      return "bad_certificate";
+    case FindingKind::kNotAFace:
+      return "not_a_face";
+    case FindingKind::kWrongClass:
+      return "wrong_class";
+    case FindingKind::kValueOutOfBounds:
+      return "value_out_of_bounds";
+    case FindingKind::kLooseBound:
+      return "loose_bound";
+    case FindingKind::kNotOptimal:
+      return "not_optimal";
+    case FindingKind::kPhaseNotMaximal:
+      return "phase_not_maximal";
+    case FindingKind::kBadCounters:
+      return "bad_counters";
+    case FindingKind::kUnentitledExit:
+      return "unentitled_exit";
+    case FindingKind::kMissingPart:
+      return "missing_part";
   }
   return "?";
 }
@@ -69,10 +83,9 @@ bool CheckIndices(const JudgeContext& context, const ExactBody& p, const ExactBo
       return false;
     }
   }
-  if (result.face.has_value() &&
-      (!PairsInRange(result.face->triangle, p.data(), q.data()) ||
-       !FeatureInRange(result.face->feature_p, p.data()) ||
-       !FeatureInRange(result.face->feature_q, q.data()))) {
+  if (result.face.has_value() && (!PairsInRange(result.face->triangle, p.data(), q.data()) ||
+                                  !FeatureInRange(result.face->feature_p, p.data()) ||
+                                  !FeatureInRange(result.face->feature_q, q.data()))) {
     context.Add(FindingKind::kNotAFace, "names an element that does not exist");
     return false;
   }
@@ -90,7 +103,8 @@ std::vector<Finding> Judge(const ExactBody& p, const ExactBody& q, const Relativ
                            const CollideResult& result, const JudgeOptions& options) {
   std::vector<Finding> findings;
   if (!InRange(result.interior_p, 2) || !InRange(result.interior_q, 2)) {
-    findings.push_back({FindingKind::kBadCertificate, "names an interior point that does not exist"});
+    findings.push_back(
+        {FindingKind::kBadCertificate, "names an interior point that does not exist"});
     return findings;
   }
   JudgeContext context(p, q, pose, result, options, &findings);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Check 5, the phases: each phase's result is what it claims of its class. (That the final face is the
-// maximum over F(M) is check 3's crossing: a facet that the ray crosses is optimal.)
+// Check 5, the phases: each phase's result is what it claims of its class. (That the final face is
+// the maximum over F(M) is check 3's crossing: a facet that the ray crosses is optimal.)
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +35,8 @@ int FirstVertex(const ExactBodyData& body, const Feature& feature) {
   return body.face(feature.index)[0];
 }
 
-bool HoldsAll(const ExactBodyData& body, const Feature& feature, const std::vector<int>& supporting) {
+bool HoldsAll(const ExactBodyData& body, const Feature& feature,
+              const std::vector<int>& supporting) {
   const auto holds = [&](int v) {
     return std::find(supporting.begin(), supporting.end(), v) != supporting.end();
   };
@@ -45,7 +46,8 @@ bool HoldsAll(const ExactBodyData& body, const Feature& feature, const std::vect
     }
     return true;
   }
-  if (feature.kind == FeatureKind::kEdge && !holds(body.topology().edges[feature.index].head)) return false;
+  if (feature.kind == FeatureKind::kEdge && !holds(body.topology().edges[feature.index].head))
+    return false;
   return holds(FirstVertex(body, feature));
 }
 
@@ -80,14 +82,17 @@ std::optional<Ratio> RatioOfReport(const JudgeContext& context, int phase) {
 
 std::optional<Ratio> ClassMaximum(const JudgeContext& context, int phase) {
   switch (phase) {
-    case 0: return FaceVertexMaximum(context.pair);
-    case 1: return VertexFaceMaximum(context.pair);
-    default: return EdgeEdgeMaximum(context.pair);
+    case 0:
+      return FaceVertexMaximum(context.pair);
+    case 1:
+      return VertexFaceMaximum(context.pair);
+    default:
+      return EdgeEdgeMaximum(context.pair);
   }
 }
 
-// A proven search: what is claimed to be a maximum must be one; an edge pair phase that kept a face of
-// another class says that this face is the maximum over all of M.
+// A proven search: what is claimed to be a maximum must be one; an edge pair phase that kept a face
+// of another class says that this face is the maximum over all of M.
 void CheckClaim(const JudgeContext& context, int phase) {
   const PhaseReport& report = context.result.phases[phase];
   if (report.claim != PhaseClaim::kMaximum) return;

@@ -46,8 +46,8 @@ void CheckBoundedValue(const JudgeContext& context, const char* name, const Boun
                 is + ": condition " + Number(stated.condition) + ", at most " +
                     Number(kConditionFactor * (1 + amplification / size)));
   } else if (stated.error > kErrorFactor * stated.condition * size) {
-    context.Add(FindingKind::kLooseBound, is + " +- " + Number(stated.error) + " at condition " +
-                                              Number(stated.condition));
+    context.Add(FindingKind::kLooseBound,
+                is + " +- " + Number(stated.error) + " at condition " + Number(stated.condition));
   }
 }
 
@@ -64,8 +64,9 @@ void CheckExitPoint(const JudgeContext& context, const ExitValues& exact, double
     exact_squared = exact_squared + exact.exit_point[k] * exact.exit_point[k];
   }
   if (!(error >= 0) || !Within(Sqrt(squared), Sqrt(exact_squared), error)) {
-    context.Add(FindingKind::kValueOutOfBounds,
-                "exit point off by " + Number(Sqrt(squared).ToDouble()) + ", says " + Number(error));
+    context.Add(
+        FindingKind::kValueOutOfBounds,
+        "exit point off by " + Number(Sqrt(squared).ToDouble()) + ", says " + Number(error));
   }
   const double limit =
       kConditionFactor * kErrorFactor * (amplification + std::abs(exact.exit_travel.ToDouble()));
@@ -78,7 +79,8 @@ void CheckInteriorDifference(const JudgeContext& context) {
   for (int k = 0; k < 3; ++k) {
     const Real exact = context.pair.ToLength(Real(context.pair.c()[k]));
     const double stated = context.result.interior_difference[k];
-    if (std::isfinite(stated) && Within(Abs(Real(stated) - exact), Abs(exact), 0x1p-47 * context.pair.size())) {
+    if (std::isfinite(stated) &&
+        Within(Abs(Real(stated) - exact), Abs(exact), 0x1p-47 * context.pair.size())) {
       continue;
     }
     return context.Add(FindingKind::kValueOutOfBounds, "interior_difference is not c");
@@ -101,8 +103,8 @@ void CheckValues(const JudgeContext& context) {
       !result.exit_point.has_value()) {
     return;
   }
-  // The published search may name a facet that is not the exit: its numbers are held to the facet named,
-  // so that one fault is one finding. All else is held to the truth.
+  // The published search may name a facet that is not the exit: its numbers are held to the facet
+  // named, so that one fault is one finding. All else is held to the truth.
   IntegerVector normal;
   Ratio ratio;
   if (context.face.has_value()) {
@@ -115,7 +117,8 @@ void CheckValues(const JudgeContext& context) {
   }
   const ExitValues exact = ValuesAt(context.pair, normal, ratio);
   if (sgn(ratio.numerator) <= 0) {
-    return context.Add(FindingKind::kValueOutOfBounds, "numbers for a plane that the ray never meets");
+    return context.Add(FindingKind::kValueOutOfBounds,
+                       "numbers for a plane that the ray never meets");
   }
   const Amplifications amplification = AmplificationsAt(exact, context.pair.size());
   if (result.signed_distance.has_value()) {
@@ -123,7 +126,8 @@ void CheckValues(const JudgeContext& context) {
                       amplification.signed_distance);
   }
   if (result.exit_travel.has_value()) {
-    CheckBoundedValue(context, "g", *result.exit_travel, exact.exit_travel, amplification.exit_travel);
+    CheckBoundedValue(context, "g", *result.exit_travel, exact.exit_travel,
+                      amplification.exit_travel);
   }
   if (result.exit_point.has_value()) CheckExitPoint(context, exact, amplification.exit_travel);
 }

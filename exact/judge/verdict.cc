@@ -22,13 +22,14 @@ void CheckUndecided(const JudgeContext& context) {
     context.Add(FindingKind::kUndecided, "undecided, though c = o");
     return;
   }
-  // The distance from o to the plane of the exit face: where P and Q are separate, their distance is
-  // at least that; where they overlap, it bounds the depth from above.
+  // The distance from o to the plane of the exit face: where P and Q are separate, their distance
+  // is at least that; where they overlap, it bounds the depth from above.
   const ExactExit& exit = *context.Decision().exit;
   const double gap = std::abs(exit.exit_travel) * exit.normal_cosine;
   if (gap > kUndecidedGap * context.pair.size()) {
-    context.Add(FindingKind::kUndecided, "undecided at " + std::to_string(gap / context.pair.size()) +
-                                             " of the size from contact");
+    context.Add(
+        FindingKind::kUndecided,
+        "undecided at " + std::to_string(gap / context.pair.size()) + " of the size from contact");
   }
 }
 

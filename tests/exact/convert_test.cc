@@ -19,7 +19,8 @@ mpq_class TrueLength(const PlacedPair& pair, const Integer& value, const mpq_cla
 }
 
 TEST(Integer, SplitsAndRestoresEveryKindOfDouble) {
-  for (const double value : {1.0, -3.0, 0.1, 5e-324, -2.2e-308, 1e100, 1.7976931348623157e308, 6.0}) {
+  for (const double value :
+       {1.0, -3.0, 0.1, 5e-324, -2.2e-308, 1e100, 1.7976931348623157e308, 6.0}) {
     const SplitDouble split = Split(value);
     EXPECT_EQ(std::ldexp(static_cast<double>(split.mantissa), split.exponent), value);
     EXPECT_NE(split.mantissa % 2, 0);
@@ -42,7 +43,8 @@ TEST(Integer, DirectionKeepsComponentsWithinTwoUnits) {
 TEST(PlacedPair, PlacesVerticesExactly) {
   Random random(11);
   for (int round = 0; round < 20; ++round) {
-    const ExactBody p(EllipsoidHull(&random, 8, {1, 2, 3})), q(EllipsoidHull(&random, 8, {3, 1, 1e-3}));
+    const ExactBody p(EllipsoidHull(&random, 8, {1, 2, 3})),
+        q(EllipsoidHull(&random, 8, {3, 1, 1e-3}));
     const Eigen::Matrix3d r = RoundedRotation(&random);
     const Eigen::Vector3d t(random.Real(-1, 1), random.Real(-1e9, 1e9), random.Real(-1e-9, 1e-9));
     const PlacedPair pair(p.data(), q.data(), Pose(r, t), 0, 1);
@@ -67,7 +69,8 @@ TEST(PlacedPair, PlacesVerticesExactly) {
 TEST(PlacedPair, PlacesWorldPosesExactly) {
   Random random(12);
   for (int round = 0; round < 20; ++round) {
-    const ExactBody p(EllipsoidHull(&random, 6, {1, 2, 3})), q(EllipsoidHull(&random, 6, {3, 1, 1}));
+    const ExactBody p(EllipsoidHull(&random, 6, {1, 2, 3})),
+        q(EllipsoidHull(&random, 6, {3, 1, 1}));
     const WorldPose wp{RoundedRotation(&random), 10 * random.OnSphere()};
     const WorldPose wq{RoundedRotation(&random), 10 * random.OnSphere()};
     const PlacedPair pair(p.data(), q.data(), RelativePose::FromWorld(wp, wq).value(), 0, 0);
@@ -84,7 +87,8 @@ TEST(PlacedPair, PlacesWorldPosesExactly) {
     EXPECT_EQ(scaled[0] * world[1], scaled[1] * world[0]);
     EXPECT_EQ(scaled[1] * world[2], scaled[2] * world[1]);
     EXPECT_GT(sgn(scaled[0]) * sgn(world[0]), 0);
-    EXPECT_NEAR(pair.ToLength(Real(d[0])).ToDouble(), (scaled[0] == 0 ? 0.0 : mpq_class(world[0] / scaled[0] * d[0]).get_d()), 1e-12);
+    EXPECT_NEAR(pair.ToLength(Real(d[0])).ToDouble(),
+                (scaled[0] == 0 ? 0.0 : mpq_class(world[0] / scaled[0] * d[0]).get_d()), 1e-12);
   }
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 TEST(ConvexHull, KeepsOnlyExtremePointsInTheirOrder) {
   // A cube with its centre, a point within a face, one within an edge, and a corner twice.
-  Points points = {{0.5, 0.5, 0.5}, {1, 1, 1}, {0, 0, 0}, {0.5, 0.5, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0},
-                   {0, 0, 1},       {1, 1, 0}, {1, 0, 1}, {0, 1, 1},     {1, 1, 1}};
+  Points points = {{0.5, 0.5, 0.5}, {1, 1, 1}, {0, 0, 0}, {0.5, 0.5, 0}, {1, 0, 0}, {0, 1, 0},
+                   {0.5, 0, 0},     {0, 0, 1}, {1, 1, 0}, {1, 0, 1},     {0, 1, 1}, {1, 1, 1}};
   const ConvexPolyhedron cube = Hull(points);
   ASSERT_EQ(cube.vertex_count(), 8);
   EXPECT_EQ(cube.face_count(), 6);
@@ -35,7 +35,8 @@ TEST(ConvexHull, IsCanonical) {
     EXPECT_TRUE(std::is_sorted(loops.begin(), loops.end()));
     const Points again(hull.vertices().begin(), hull.vertices().end());
     const ConvexPolyhedron same = Hull(again, round % 2 == 0);
-    EXPECT_TRUE(std::equal(hull.vertices().begin(), hull.vertices().end(), same.vertices().begin()));
+    EXPECT_TRUE(
+        std::equal(hull.vertices().begin(), hull.vertices().end(), same.vertices().begin()));
     EXPECT_EQ(hull.face_count(), same.face_count());
   }
 }
@@ -57,7 +58,8 @@ TEST(ConvexHull, SaysWhatIsWrong) {
 
 TEST(ConvexHull, SeesAPointOneUlpOffAPlane) {
   const double up = 1 + 0x1p-52;
-  const Points points = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, up}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  const Points points = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, up},
+                         {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
   EXPECT_EQ(Hull(points).face_count(), 7);  // the top alone falls into two
 }
 

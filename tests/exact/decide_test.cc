@@ -72,8 +72,10 @@ TEST(Decide, ReturnsAFacetThatTheRayCrosses) {
   Random random(6);
   for (int round = 0; round < 300; ++round) {
     const bool grid = round % 2 == 0;
-    const ExactBody p(grid ? GridHull(&random, 12, 3, round % 4 == 0) : EllipsoidHull(&random, 30, {2, 1, 1}));
-    const ExactBody q(grid ? GridHull(&random, 12, 3, round % 4 == 0) : EllipsoidHull(&random, 30, {2, 1, 1}));
+    const ExactBody p(grid ? GridHull(&random, 12, 3, round % 4 == 0)
+                           : EllipsoidHull(&random, 30, {2, 1, 1}));
+    const ExactBody q(grid ? GridHull(&random, 12, 3, round % 4 == 0)
+                           : EllipsoidHull(&random, 30, {2, 1, 1}));
     const Eigen::Matrix3d r = grid ? CubeRotation(&random) : RoundedRotation(&random);
     const Eigen::Vector3d t(random.Integer(-4, 4), random.Integer(-4, 4), random.Integer(-4, 4));
     const PlacedPair pair(p.data(), q.data(), Pose(r, t), 0, 0);

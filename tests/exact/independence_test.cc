@@ -12,7 +12,8 @@ namespace {
 
 std::vector<std::filesystem::path> Sources() {
   std::vector<std::filesystem::path> sources;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(TOUCHSTONE_SOURCE_DIR "/exact")) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(TOUCHSTONE_SOURCE_DIR "/exact")) {
     const std::string extension = entry.path().extension();
     if (extension == ".h" || extension == ".cc") sources.push_back(entry.path());
   }
@@ -28,9 +29,9 @@ std::string Read(const std::filesystem::path& path) {
 
 // A judge that shares code with the judged is no judge: of the core, these headers and no others.
 TEST(Independence, ExactIncludesOnlyTypesOfTheCore) {
-  const std::set<std::string> allowed = {
-      "core/base/status.h", "core/base/relative_pose.h", "core/convex/convex_polyhedron.h",
-      "core/cd_dual/result.h"};
+  const std::set<std::string> allowed = {"core/base/status.h", "core/base/relative_pose.h",
+                                         "core/convex/convex_polyhedron.h",
+                                         "core/cd_dual/result.h"};
   const std::regex include("#include \"([^\"]*)\"");
   ASSERT_GT(Sources().size(), 20u);
   for (const auto& path : Sources()) {
@@ -45,16 +46,27 @@ TEST(Independence, ExactIncludesOnlyTypesOfTheCore) {
   }
 }
 
-// Of a body: vertices, faces and interior points; of a pose: its doubles. Nothing that was preprocessed
-// and nothing that claims an error.
+// Of a body: vertices, faces and interior points; of a pose: its doubles. Nothing that was
+// preprocessed and nothing that claims an error.
 TEST(Independence, ExactReadsOnlyVerticesFacesAndPoses) {
-  const char* const forbidden[] = {
-      R"(\bface_edges\s*\()",       R"(\bface_plane\s*\()",        R"(\bface_normal\s*\()",
-      R"(\bfacet_of_face\b)",       R"(\bvertex_neighbors\b)",     R"(\bvertex_edges\s*\()",
-      R"(\bvertex_faces\s*\()",     R"(\bface_across\b)",          R"(\bmax_coordinate\s*\()",
-      R"(\bdiameter_bound\b)",      R"(\brotation_error\b)",       R"(\btranslation_error\b)",
-      R"(\bDyadic\w*\b)",           R"(\bSupportVertex\w*\b)",     R"(\bCollide\s*\()",
-      R"(\bFindValidationError\b)", R"(\bbody\(?\)?\.edge\w*\s*\()", R"(\bbody\(?\)?\.vertex\s*\()"};
+  const char* const forbidden[] = {R"(\bface_edges\s*\()",
+                                   R"(\bface_plane\s*\()",
+                                   R"(\bface_normal\s*\()",
+                                   R"(\bfacet_of_face\b)",
+                                   R"(\bvertex_neighbors\b)",
+                                   R"(\bvertex_edges\s*\()",
+                                   R"(\bvertex_faces\s*\()",
+                                   R"(\bface_across\b)",
+                                   R"(\bmax_coordinate\s*\()",
+                                   R"(\bdiameter_bound\b)",
+                                   R"(\brotation_error\b)",
+                                   R"(\btranslation_error\b)",
+                                   R"(\bDyadic\w*\b)",
+                                   R"(\bSupportVertex\w*\b)",
+                                   R"(\bCollide\s*\()",
+                                   R"(\bFindValidationError\b)",
+                                   R"(\bbody\(?\)?\.edge\w*\s*\()",
+                                   R"(\bbody\(?\)?\.vertex\s*\()"};
   for (const auto& path : Sources()) {
     const std::string text = Read(path);
     for (const char* pattern : forbidden) {

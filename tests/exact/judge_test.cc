@@ -84,8 +84,7 @@ TEST_F(JudgeTest, FlippedCertificates) {
   const PlacedPair pair(p_.data(), q_.data(), apart_, 0, 0);
   const auto& t = decision.exit->triangle;
   const IntegerVector a = pair.FromC(t[0]);
-  const Eigen::Vector3d n =
-      ToDirection(Cross(pair.FromC(t[1]) - a, pair.FromC(t[2]) - a));
+  const Eigen::Vector3d n = ToDirection(Cross(pair.FromC(t[1]) - a, pair.FromC(t[2]) - a));
   result.certificate.direction = n;
   EXPECT_THAT(Kinds(apart_, result), IsEmpty());
   result.certificate.direction = -n;
@@ -142,18 +141,18 @@ TEST_F(JudgeTest, AnotherFacetThanTheExit) {
   result.face->feature_q = report.feature_q;
   for (int i = 0; i < 3; ++i) {
     // Reflection turns the loops of Q around.
-    result.face->triangle[i] = by_q ? VertexPair{report.feature_p.index,
-                                                 q_.body().face(report.feature_q.index)[2 - i]}
-                                    : VertexPair{p_.body().face(report.feature_p.index)[i],
-                                                 report.feature_q.index};
+    result.face->triangle[i] =
+        by_q ? VertexPair{report.feature_p.index, q_.body().face(report.feature_q.index)[2 - i]}
+             : VertexPair{p_.body().face(report.feature_p.index)[i], report.feature_q.index};
   }
   EXPECT_THAT(Kinds(apart_, result), Contains(FindingKind::kNotOptimal));
 }
 
 TEST_F(JudgeTest, WrongClass) {
   for (const RelativePose& pose : {apart_, overlapping_}) {
-    for (const FaceClass wrong : {FaceClass::kFaceVertex, FaceClass::kVertexFace, FaceClass::kEdgeEdge,
-                                  FaceClass::kFaceEdge, FaceClass::kEdgeFace, FaceClass::kFaceFace}) {
+    for (const FaceClass wrong :
+         {FaceClass::kFaceVertex, FaceClass::kVertexFace, FaceClass::kEdgeEdge,
+          FaceClass::kFaceEdge, FaceClass::kEdgeFace, FaceClass::kFaceFace}) {
       CollideResult result = Good(pose);
       if (result.face->face_class == wrong) continue;
       result.face->face_class = wrong;
@@ -234,8 +233,8 @@ TEST_F(JudgeTest, LooseBounds) {
   EXPECT_THAT(Kinds(apart_, result), UnorderedElementsAre(FindingKind::kLooseBound));
 }
 
-// Another face of the class with its true features and distance: below the maximum, and a finding only
-// where it is claimed to be the maximum.
+// Another face of the class with its true features and distance: below the maximum, and a finding
+// only where it is claimed to be the maximum.
 TEST_F(JudgeTest, SubMaximalPhases) {
   const PlacedPair pair(p_.data(), q_.data(), apart_, 0, 0);
   const CollideResult good = Good(apart_);
@@ -336,7 +335,8 @@ TEST_F(JudgeTest, Undecided) {
   const ExactBody box(Box({-1, -1, -1}, {1, 1, 1}));
   const RelativePose touching = Pose(Eigen::Matrix3d::Identity(), {2, 0.5, 0.25});
   result.interior_difference = GoodResult(box, box, touching).interior_difference;
-  EXPECT_THAT(exact::Kinds(Judge(box, box, touching, result, {.certainty = Certainty::kFloat})), IsEmpty());
+  EXPECT_THAT(exact::Kinds(Judge(box, box, touching, result, {.certainty = Certainty::kFloat})),
+              IsEmpty());
   EXPECT_THAT(exact::Kinds(Judge(box, box, touching, result)),
               UnorderedElementsAre(FindingKind::kUndecided));
 }

@@ -25,7 +25,8 @@ ExactBody WithMean(const Points& points) {
   return ExactBody(hull, mean, hull.interior_point(1));
 }
 
-// A body around the origin, which is its interior point: then c = -t and 1/s = n.t / (h_P(n) + h_-Q(n)).
+// A body around the origin, which is its interior point: then c = -t and 1/s = n.t / (h_P(n) +
+// h_-Q(n)).
 ExactBody AroundOrigin(const Points& points) {
   const ConvexPolyhedron hull = Hull(points, false);
   EXPECT_EQ(hull.vertex_count(), static_cast<int>(points.size()));
@@ -58,9 +59,10 @@ mpq_class Q(long numerator, long denominator) {
   return value;
 }
 
-// Theorem 1 fails with five vertices against four, coordinates at most 2, no two features parallel and no
-// two faces of M at one distance: the first face has 2/13, its three neighbours less, a fourth face 1/4.
-// By random search; five is least, for the faces of a tetrahedron all neighbour each other.
+// Theorem 1 fails with five vertices against four, coordinates at most 2, no two features parallel
+// and no two faces of M at one distance: the first face has 2/13, its three neighbours less, a
+// fourth face 1/4. By random search; five is least, for the faces of a tetrahedron all neighbour
+// each other.
 TEST(PublishedTwin, SearchFvSticksOnFiveVerticesInGeneralPosition) {
   const ExactBody p = AroundOrigin({{0, -1, -1}, {1, -2, 0}, {0, 2, 1}, {-2, 2, 0}, {-2, 0, 0}});
   const ExactBody q = AroundOrigin({{-1, -1, -1}, {2, 1, 2}, {-1, 1, 1}, {0, 0, -1}});
@@ -83,14 +85,16 @@ TEST(PublishedTwin, SearchFvSticksOnFiveVerticesOfUnitCoordinates) {
 }
 
 // A separate pair called overlapping, five vertices against four, coordinates at most 3, in general
-// position: SEARCH-FV stops at 13/20 and misses the face of P with 23/20, which is the exit face; SEARCH-EE
-// climbs to 22/25, whose better neighbours on M are faces of F_fv, which it never looks at.
+// position: SEARCH-FV stops at 13/20 and misses the face of P with 23/20, which is the exit face;
+// SEARCH-EE climbs to 22/25, whose better neighbours on M are faces of F_fv, which it never looks
+// at.
 TEST(PublishedTwin, FiveVerticesInGeneralPositionAreCalledOverlapping) {
   const ExactBody p = AroundOrigin({{-1, 0, -1}, {0, 1, 2}, {1, -3, 2}, {2, 2, -2}, {1, -2, 0}});
   const ExactBody q = AroundOrigin({{-1, -2, -2}, {3, 1, 1}, {-1, 1, 2}, {2, 3, -2}});
   const RelativePose pose = Pose(Eigen::Matrix3d::Identity(), {-3, 0, -2});
   const TwinResult twin = RunPublishedTwin(p, q, pose, 0, 0, {.trace = true});
-  EXPECT_THAT(Visited(twin, Phase::kFaceVertex), ElementsAre(Q(13, 20), Q(4, 7), Q(-4, 5), Q(13, 25)));
+  EXPECT_THAT(Visited(twin, Phase::kFaceVertex),
+              ElementsAre(Q(13, 20), Q(4, 7), Q(-4, 5), Q(13, 25)));
   EXPECT_THAT(Visited(twin, Phase::kEdgeEdge),
               ElementsAre(Q(11, 17), Q(5, 9), Q(11, 15), Q(22, 25), Q(11, 15)));
   EXPECT_THAT(Details(JudgeTwin(p, q, pose, twin)),
@@ -100,12 +104,13 @@ TEST(PublishedTwin, FiveVerticesInGeneralPositionAreCalledOverlapping) {
   EXPECT_EQ(1 / truth.exit->parameter, Q(23, 20));
   EXPECT_EQ(truth.exit->face_class, FaceClass::kFaceVertex);
   // Early exit changes nothing: no face with d > 0 is met.
-  EXPECT_EQ(RunPublishedTwin(p, q, pose, 0, 0, {.early_exit = true}).result.verdict, Verdict::kOverlap);
+  EXPECT_EQ(RunPublishedTwin(p, q, pose, 0, 0, {.early_exit = true}).result.verdict,
+            Verdict::kOverlap);
 }
 
-// Two tetrahedra with coordinates of 0 and 1 alone, separate, called overlapping though both first phases
-// are at their maxima: P's face 0 2 3 is parallel to Q's edge 0-3, the supporting vertex 0 is as good as 3,
-// and the edge pair (0-3, 3-2) that leads on meets Q at 3.
+// Two tetrahedra with coordinates of 0 and 1 alone, separate, called overlapping though both first
+// phases are at their maxima: P's face 0 2 3 is parallel to Q's edge 0-3, the supporting vertex 0
+// is as good as 3, and the edge pair (0-3, 3-2) that leads on meets Q at 3.
 TEST(PublishedTwin, UnitTetrahedraWithAParallelEdgeAreCalledOverlapping) {
   const ExactBody p = AroundOrigin({{1, 0, -1}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 1}});
   const ExactBody q = AroundOrigin({{0, -1, -1}, {1, -1, 1}, {1, 1, 0}, {-1, 0, 0}});
@@ -120,8 +125,8 @@ TEST(PublishedTwin, UnitTetrahedraWithAParallelEdgeAreCalledOverlapping) {
   EXPECT_EQ(truth.exit->face_class, FaceClass::kEdgeEdge);
 }
 
-// Needles with aligned edges, seen first in doubles (design notes, section 5) and exact here: separate by
-// 4.157, while the search ends at d = 0 and so says overlap.
+// Needles with aligned edges, seen first in doubles (design notes, section 5) and exact here:
+// separate by 4.157, while the search ends at d = 0 and so says overlap.
 TEST(PublishedTwin, NeedlesWithAlignedEdgesAreCalledOverlapping) {
   const ExactBody p = WithMean({{-14, 1, -2}, {39, 0, -2}, {25, 2, -2}, {15, 2, 0}});
   const ExactBody q = WithMean({{-21, 2, 0}, {-38, 3, -1}, {2, 2, 0}, {0, -3, -2}});
@@ -153,17 +158,20 @@ TEST(PublishedTwin, JudgeAndJudgeTwinAgree) {
     // The claims that fail on the twin's run fail on its result, and no others.
     std::map<FindingKind, int> expected, found;
     for (const Finding& f : claims) ++expected[f.kind];
-    for (const Finding& f : Judge(p, q, pose, twin.result, {.search = Search::kPublished})) ++found[f.kind];
+    for (const Finding& f : Judge(p, q, pose, twin.result, {.search = Search::kPublished}))
+      ++found[f.kind];
     EXPECT_EQ(expected, found) << "round " << round;
 
-    const TwinResult early = RunPublishedTwin(p, q, pose, 0, 0, {.early_exit = true, .trace = true});
+    const TwinResult early =
+        RunPublishedTwin(p, q, pose, 0, 0, {.early_exit = true, .trace = true});
     EXPECT_EQ(early.result.verdict, twin.result.verdict);
     EXPECT_LE(early.result.trace.size(), twin.result.trace.size());
     if (twin.result.verdict == Verdict::kSeparate) {
       EXPECT_EQ(early.result.termination, Termination::kEarlyExit);
       EXPECT_FALSE(early.result.face.has_value());
-      EXPECT_THAT(Judge(p, q, pose, early.result, {.search = Search::kPublished, .early_exit = true}),
-                  IsEmpty());
+      EXPECT_THAT(
+          Judge(p, q, pose, early.result, {.search = Search::kPublished, .early_exit = true}),
+          IsEmpty());
     }
   }
   std::printf("runs that fail a theorem: %d of 200\n", failures);

@@ -23,7 +23,8 @@ std::vector<Query> MakeQueries(int n, int count) {
   Random random(41);
   std::vector<Query> queries;
   for (int i = 0; i < count; ++i) {
-    const ExactBody p(EllipsoidHull(&random, n, {2, 1, 1})), q(EllipsoidHull(&random, n, {2, 1, 1}));
+    const ExactBody p(EllipsoidHull(&random, n, {2, 1, 1})),
+        q(EllipsoidHull(&random, n, {2, 1, 1}));
     const RelativePose pose =
         Pose(RoundedRotation(&random), random.Real(0.5, 3.5) * random.OnSphere());
     queries.push_back({p, q, pose, GoodResult(p, q, pose)});
@@ -49,8 +50,8 @@ TEST(Rates, JudgedPerSecond) {
   for (const int n : {20, 100}) {
     const std::vector<Query> queries = MakeQueries(n, n == 20 ? 100 : 10);
     const auto judge = [](const Query& query, bool maxima) {
-      EXPECT_TRUE(
-          Judge(query.p, query.q, query.pose, query.result, {.check_phase_maxima = maxima}).empty());
+      EXPECT_TRUE(Judge(query.p, query.q, query.pose, query.result, {.check_phase_maxima = maxima})
+                      .empty());
     };
     const double plain = PerSecond(queries, [&](const Query& query) { judge(query, false); });
     const double maxima = PerSecond(queries, [&](const Query& query) { judge(query, true); });
@@ -60,8 +61,9 @@ TEST(Rates, JudgedPerSecond) {
     });
     const double decided =
         PerSecond(queries, [](const Query& query) { Decide(query.p, query.q, query.pose); });
-    std::printf("n = %d: judged/s %.0f, with phase maxima %.0f, with fresh bodies %.0f; decided/s %.0f\n",
-                n, plain, maxima, fresh, decided);
+    std::printf(
+        "n = %d: judged/s %.0f, with phase maxima %.0f, with fresh bodies %.0f; decided/s %.0f\n",
+        n, plain, maxima, fresh, decided);
   }
 }
 

@@ -17,9 +17,8 @@ namespace touchstone::exact {
 namespace {
 
 bool Includes(const std::vector<int>& set, std::span<const int> some) {
-  return std::all_of(some.begin(), some.end(), [&](int v) {
-    return std::find(set.begin(), set.end(), v) != set.end();
-  });
+  return std::all_of(some.begin(), some.end(),
+                     [&](int v) { return std::find(set.begin(), set.end(), v) != set.end(); });
 }
 
 // An element of the body that spans the supporting feature.
@@ -81,7 +80,8 @@ ConvexPolyhedron Hull(const Points& points, bool merge_coplanar) {
 ConvexPolyhedron Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   Points corners;
   for (int i = 0; i < 8; ++i) {
-    corners.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z());
+    corners.emplace_back((i & 1 ? high : low).x(), (i & 2 ? high : low).y(),
+                         (i & 4 ? high : low).z());
   }
   return Hull(corners);
 }

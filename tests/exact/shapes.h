@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Bodies, poses and known-good results for the tests of the exact half; nothing here uses the core's
-// search.
+// Bodies, poses and known-good results for the tests of the exact half; nothing here uses the
+// core's search.
 #ifndef TOUCHSTONE_TESTS_EXACT_SHAPES_H_
 #define TOUCHSTONE_TESTS_EXACT_SHAPES_H_
 
@@ -44,7 +44,8 @@ Eigen::Matrix3d RoundedRotation(Random* random);
 RelativePose Pose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation);
 
 // What a search without fault would return, made from Decide and the supporting features: the exit
-// face of its exact class, values within an ulp, and a certificate by that face. No phases, no counts.
+// face of its exact class, values within an ulp, and a certificate by that face. No phases, no
+// counts.
 CollideResult GoodResult(const ExactBody& p, const ExactBody& q, const RelativePose& pose);
 
 // Fills the reports of all three phases with the exact maxima of their classes, found by evaluating

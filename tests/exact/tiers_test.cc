@@ -26,41 +26,47 @@ struct Placed {
   RelativePose pose;
 };
 
-// Small pairs of every kind: boxes, grid hulls with many parallel features, ellipsoid hulls; turned by
-// the cube's rotations, by rounded ones, or placed by two world poses.
+// Small pairs of every kind: boxes, grid hulls with many parallel features, ellipsoid hulls; turned
+// by the cube's rotations, by rounded ones, or placed by two world poses.
 Placed SmallPair(Random* random, int round) {
   const auto body = [&]() -> ConvexPolyhedron {
     switch (round % 4) {
-      case 0: return Box({0, 0, 0}, {1.0 * random->Integer(1, 3), 1.0 * random->Integer(1, 3), 1});
-      case 1: return GridHull(random, 8, 2, true);
-      case 2: return GridHull(random, 8, 2, false);
-      default: return EllipsoidHull(random, 7, {3, 2, 1});
+      case 0:
+        return Box({0, 0, 0}, {1.0 * random->Integer(1, 3), 1.0 * random->Integer(1, 3), 1});
+      case 1:
+        return GridHull(random, 8, 2, true);
+      case 2:
+        return GridHull(random, 8, 2, false);
+      default:
+        return EllipsoidHull(random, 7, {3, 2, 1});
     }
   };
   const ConvexPolyhedron p = body(), q = body();
   const bool whole = round % 3 != 0;
   const Eigen::Matrix3d r = whole ? CubeRotation(random) : RoundedRotation(random);
-  const Eigen::Vector3d t =
-      whole ? Eigen::Vector3d(random->Integer(-3, 3), random->Integer(-3, 3), random->Integer(-3, 3))
-            : Eigen::Vector3d(3 * random->OnSphere());
+  const Eigen::Vector3d t = whole ? Eigen::Vector3d(random->Integer(-3, 3), random->Integer(-3, 3),
+                                                    random->Integer(-3, 3))
+                                  : Eigen::Vector3d(3 * random->OnSphere());
   if (round % 7 == 0) {
     return {p, q, RelativePose::FromWorld({RoundedRotation(random), t}, {r, -t}).value()};
   }
   return {p, q, Pose(r, t)};
 }
 
-void CompareProofWithHull(const Placed& placed, const PlacedPair& pair, const MinkowskiDifference& m) {
+void CompareProofWithHull(const Placed& placed, const PlacedPair& pair,
+                          const MinkowskiDifference& m) {
   EXPECT_TRUE(Same(m.FaceVertexMaximum(), FaceVertexMaximum(pair)));
   EXPECT_TRUE(Same(m.VertexFaceMaximum(), VertexFaceMaximum(pair)));
   EXPECT_TRUE(Same(m.EdgeEdgeMaximum(), EdgeEdgeMaximum(pair)));
   const ExactDecision decision = Decide(placed.p, placed.q, placed.pose);
   ASSERT_TRUE(decision.exit.has_value());
   EXPECT_EQ(ToRational(m.ExitRatio()), 1 / decision.exit->parameter);
-  // Euler's formula needs edges; every vertex lies on at least three facets and every facet has three.
+  // Euler's formula needs edges; every vertex lies on at least three facets and every facet has
+  // three.
   for (const MinkowskiFacet& facet : m.facets) {
-    const auto on = std::count_if(m.vertices.begin(), m.vertices.end(), [&](const IntegerVector& x) {
-      return Dot(facet.plane.normal, x) == facet.plane.offset;
-    });
+    const auto on = std::count_if(
+        m.vertices.begin(), m.vertices.end(),
+        [&](const IntegerVector& x) { return Dot(facet.plane.normal, x) == facet.plane.offset; });
     EXPECT_GE(on, 3);
   }
 }
