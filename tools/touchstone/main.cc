@@ -30,7 +30,9 @@ int Run(int argc, char** argv) {
   AddVerify(app, exit_code);
   AddSuites(app, exit_code);
   AddReplay(app, exit_code);
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommand_no_throw(argv[1]) == nullptr) {
+  // Otherwise CLI11 says only that a subcommand is required.
+  const auto is_asked = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_asked).empty()) {
     throw BadInput{"there is no subcommand '" + std::string(argv[1]) + "'; see touchstone --help"};
   }
   try {
