@@ -120,7 +120,8 @@ void MeasureExit(Signs* signs, const std::array<VertexPair, 3>& triangle, Collid
     std::tie(condition_g, condition_d) = conditions(numbers);
   }
   const auto bounded = [](const Estimate& x, double condition, double factor) {
-    if (x.value == 0.0 || !std::isfinite(condition)) condition = 1.0;
+    if (x.value == 0.0) return BoundedValue{0.0, x.error * factor, 1.0};  // not -0
+    if (!std::isfinite(condition)) condition = 1.0;
     return BoundedValue{x.value * factor, x.error * factor, std::max(condition, 1.0)};
   };
   result->exit_travel = bounded(numbers.g, condition_g, 1.0 / m.scale());
