@@ -12,12 +12,6 @@ namespace {
 
 mpq_class Exact(double value) { return mpq_class(value); }
 
-// An integer length of the pair, in true units.
-mpq_class TrueLength(const PlacedPair& pair, const Integer& value, const mpq_class& unit) {
-  (void)pair;
-  return mpq_class(value) * unit;
-}
-
 TEST(Integer, SplitsAndRestoresEveryKindOfDouble) {
   for (const double value :
        {1.0, -3.0, 0.1, 5e-324, -2.2e-308, 1e100, 1.7976931348623157e308, 6.0}) {
@@ -57,7 +51,7 @@ TEST(PlacedPair, PlacesVerticesExactly) {
     const mpq_class unit = exact(0, 0, 1) / mpq_class(pair.Difference({0, 0})[1]);
     for (int a = 0; a < 4; ++a) {
       for (int k = 0; k < 3; ++k) {
-        EXPECT_EQ(TrueLength(pair, pair.Difference({a, a + 1})[k], unit), exact(a, a + 1, k));
+        EXPECT_EQ(mpq_class(pair.Difference({a, a + 1})[k]) * unit, exact(a, a + 1, k));
       }
     }
     EXPECT_NEAR(pair.ToLength(Real(pair.c()[1])).ToDouble(), pair.c_double()[1],
