@@ -24,8 +24,9 @@ class Query {
         log_{&result_.counts, options.trace ? &result_.trace : nullptr} {}
 
   CollideResult Run() {
-    ChooseInteriorDifference(&m_);
-    if (options_.early_exit && options_.search != Search::kPublished && FindCoincidence()) {
+    const bool apart = ChooseInteriorDifference(&m_);
+    if (!apart && options_.early_exit && options_.search != Search::kPublished &&
+        FindCoincidence()) {
       return Finish();
     }
     if (options_.search == Search::kPublished) {

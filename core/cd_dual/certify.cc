@@ -14,13 +14,24 @@ const ConvexPolyhedron& BodyOf(const Signs& signs, Body body) {
 
 int VertexOf(VertexPair pair, Body body) { return body == Body::kP ? pair.p : pair.q; }
 
-bool IsLocalMaximum(const Signs& signs, const Eigen::Vector3d& direction, Body body, int vertex) {
-  if (!BodyOf(signs, body).is_corner(vertex)) return false;
-  for (const int neighbor : BodyOf(signs, body).vertex_neighbors(vertex)) {
-    const auto sign = signs.AlongDirectionEdge(direction, body, neighbor, vertex);
-    if (!sign || *sign > 0) return false;
+// How much further along n than `vertex` any point of the body can be, at most, in the body's own
+// lengths: 0 where every neighbour is certainly not further; infinity where that proves nothing. `n` is
+// given in the body's frame, each coordinate off by at most `n_error`.
+double Excess(const ConvexPolyhedron& shape, int vertex, const Eigen::Vector3d& n, double n_error) {
+  const double margin = shape.corner_margin(vertex);
+  if (!(margin > 0.0)) return HUGE_VAL;
+  // n.e with e = fl(w - v): one rounding of each coordinate of e, three of each term: below
+  // 4.01 u sum |n_i e_i|, plus the error of n.
+  const double per_length = 1.01 * (4.1 * kRoundingUnit * n.cwiseAbs().maxCoeff() + n_error);
+  const Eigen::Vector3d v = shape.vertex(vertex);
+  double worst = 0.0;
+  for (const int neighbor : shape.vertex_neighbors(vertex)) {
+    const Eigen::Vector3d edge = shape.vertex(neighbor) - v;
+    const double sum = edge.lpNorm<1>();  // at least |e|, at most sqrt(3) |e|
+    const double gain = n.dot(edge) + per_length * sum;
+    if (gain > 0.0) worst = std::max(worst, 1.8 * gain / sum);
   }
-  return true;
+  return 1.01 * worst * shape.diameter_bound() / margin;
 }
 
 // max over M of n.x < 0, every vertex looked at once: max over P of n.a plus max over Q of
@@ -92,11 +103,14 @@ std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d
   const Eigen::Vector3d w = m.Point(support);
   const double error =
       1.01 * length * (3.1 * kRoundingUnit * w.cwiseAbs().maxCoeff() + m.coordinate_error());
-  if (!(direction.dot(w) < -error)) return std::nullopt;
-  if (IsLocalMaximum(*signs, direction, Body::kP, support.p) &&
-      IsLocalMaximum(*signs, direction, Body::kQ, support.q)) {
-    return Tier::kBound;
-  }
+  const double height = direction.dot(w) + error;
+  if (!(height < 0.0)) return std::nullopt;
+  // Entries of R are at most 1 + 1e-6 in magnitude: a coordinate of Rᵀn is off by 3.01 u |n|_1, and by
+  // the rotation's own error.
+  const double turned_error = length * (3.1 * kRoundingUnit + m.pose().rotation_error());
+  const double excess = Excess(m.p(), support.p, direction, 0.0) +
+                        Excess(m.q(), support.q, -m.DirectionToQ(direction), turned_error);
+  if (height + 1.01 * m.scale() * excess < 0.0) return Tier::kBound;
   if (AllBelow(m, direction)) return Tier::kScan;
   return std::nullopt;
 }

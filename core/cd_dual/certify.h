@@ -17,8 +17,9 @@ namespace touchstone {
 // First locally: `support` is on the negative side, its vertices are corners, and on each body no
 // neighbour of the corner lies further along. A convex body lies in the cone of a corner's edges, so a
 // local maximum is a global one, and the test costs the corner's degree. (Not so at a vertex within
-// an edge or a facet, whose neighbours may all be level while the body lies above.) Where a neighbour is too close to tell, every vertex is
-// compared with the plain bound. Returns the tier that proved it, or nothing; doubles only.
+// an edge or a facet, whose neighbours may all be level while the body lies above.) Where a neighbour
+// is too close to tell, the corner's margin bounds what it can matter. If that is not enough, every vertex is compared with
+// the plain bound. Returns the tier that proved it, or nothing; doubles only.
 std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d& direction,
                                              VertexPair support);
 

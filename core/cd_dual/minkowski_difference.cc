@@ -68,10 +68,9 @@ void MinkowskiDifference::ChooseInterior(int i, int j) {
   c_norm_ = c_.norm();
 }
 
-void ChooseInteriorDifference(MinkowskiDifference* m) {
-  m->ChooseInterior(0, 0);
+bool ChooseInteriorDifference(MinkowskiDifference* m) {
   const double smaller = std::min(m->p().diameter_bound(), m->q().diameter_bound());
-  if (m->Unscale(m->c_norm()) >= 1e-3 * smaller) return;
+  if (m->Unscale(m->c_norm()) >= 1e-3 * smaller) return true;
   int best_i = 0, best_j = 0;
   double best = m->c_norm();
   for (int i = 0; i < 2; ++i) {
@@ -85,6 +84,7 @@ void ChooseInteriorDifference(MinkowskiDifference* m) {
     }
   }
   m->ChooseInterior(best_i, best_j);
+  return false;
 }
 
 }  // namespace touchstone

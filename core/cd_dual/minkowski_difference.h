@@ -94,7 +94,8 @@ class MinkowskiDifference {
 // Section 4.1: c is one of the four differences of two interior points per body, away from o. The
 // difference of the central points serves unless it is shorter than a thousandth of the smaller body;
 // then the longest of the four does (they are not all o, since the two points of a body differ).
-void ChooseInteriorDifference(MinkowskiDifference* m);
+// Returns whether the central points served.
+bool ChooseInteriorDifference(MinkowskiDifference* m);
 
 }  // namespace touchstone
 

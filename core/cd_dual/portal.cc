@@ -61,7 +61,7 @@ class PortalSearch {
     if (!Probe(n[0], n[1], 1.0, {}, &first)) return false;
     const Eigen::Vector2d next = n - step_ * Eigen::Vector2d(first.x, first.y);
     FramePoint second;
-    if (!Probe(next[0], next[1], 1.0, first.pair, &second)) return false;
+    if (!Probe(next[0], next[1], 1.0, {}, &second)) return false;
     const bool improved = Squared(second) < Squared(first);
     base_ = improved ? second : first;
     base_n_ = improved ? next : n;
@@ -79,8 +79,8 @@ class PortalSearch {
     const Eigen::Vector2d right(kCos * g[0] + kSin * g[1], -kSin * g[0] + kCos * g[1]);
     const Eigen::Vector2d n1 = base_n_ + step_ * (left - g), n2 = base_n_ + step_ * (right - g);
     x_[0] = base_;
-    if (!Probe(n1[0], n1[1], 1.0, base_.pair, &x_[1])) return stopped_ = true, false;
-    if (!Probe(n2[0], n2[1], 1.0, base_.pair, &x_[2])) return stopped_ = true, false;
+    if (!Probe(n1[0], n1[1], 1.0, {}, &x_[1])) return stopped_ = true, false;
+    if (!Probe(n2[0], n2[1], 1.0, {}, &x_[2])) return stopped_ = true, false;
     return Turn(x_[0], x_[1]) > 0.0 && Turn(x_[1], x_[2]) > 0.0 && Turn(x_[2], x_[0]) > 0.0;
   }
 
@@ -95,13 +95,13 @@ class PortalSearch {
     } else if (turn2 > 0.0) {
       x_[0] = x_[2];
       x_[1] = base_;
-    } else if (!Probe(-base_.y, base_.x, 0.0, base_.pair, &x_[1])) {
+    } else if (!Probe(-base_.y, base_.x, 0.0, {}, &x_[1])) {
       return false;
     }
     for (int round = 0; round < kMaxRounds; ++round) {
       const double za = x_[0].z - frame_.c_height(), zb = x_[1].z - frame_.c_height();
       const double nx = x_[0].y * zb - za * x_[1].y, ny = za * x_[1].x - x_[0].x * zb;
-      if (!Probe(nx, ny, Turn(x_[0], x_[1]), x_[0].pair, &x_[2])) return false;
+      if (!Probe(nx, ny, Turn(x_[0], x_[1]), {}, &x_[2])) return false;
       if (Turn(x_[2], x_[0]) < 0.0) {
         x_[1] = x_[2];
       } else if (Turn(x_[1], x_[2]) < 0.0) {
@@ -127,7 +127,7 @@ class PortalSearch {
         return;
       }
       FramePoint beyond;
-      if (!Probe(nx, ny, nz, x_[round % 3].pair, &beyond)) return;
+      if (!Probe(nx, ny, nz, {}, &beyond)) return;
       // Nothing further out than rounding can see: the facet is found, up to a proof.
       if (beyond.pair == x_[0].pair || beyond.pair == x_[1].pair || beyond.pair == x_[2].pair ||
           !(nx * (beyond.x - x_[0].x) + ny * (beyond.y - x_[0].y) + nz * (beyond.z - x_[0].z) >

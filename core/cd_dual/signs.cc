@@ -166,16 +166,4 @@ std::optional<int> Signs::AlongNormal(FacetPlane* plane, Body body, int to, int 
   return Dot(*plane->exact_normal, big.Edge(body, to, from)).sign();
 }
 
-std::optional<int> Signs::AlongDirectionEdge(const Eigen::Vector3d& n, Body body, int to,
-                                             int from) const {
-  double error = 0.0;
-  const Eigen::Vector3d edge =
-      body == Body::kP ? m_.Difference({to, 0}, {from, 0}, &error)
-                       : m_.Difference({0, to}, {0, from}, &error);
-  const double length = n.lpNorm<1>();
-  const double bound =
-      1.01 * length * (3.1 * kRoundingUnit * edge.cwiseAbs().maxCoeff() + error);
-  return Settled(n.dot(edge), bound + 0x1p-1000 * length);
-}
-
 }  // namespace touchstone

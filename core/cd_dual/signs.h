@@ -66,9 +66,6 @@ class Signs {
   // `to` on that body moves M's point outward through the plane.
   std::optional<int> AlongNormal(FacetPlane* plane, Body body, int to, int from);
 
-  // The same for a direction of doubles, in doubles alone.
-  std::optional<int> AlongDirectionEdge(const Eigen::Vector3d& n, Body body, int to, int from) const;
-
   // How many signs needed big numbers.
   long exact_count() const { return exact_count_; }
   bool exact_allowed() const { return certainty_ == Certainty::kExact; }

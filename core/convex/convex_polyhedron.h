@@ -71,6 +71,10 @@ class ConvexPolyhedron {
   // Whether v is an extreme point: three or more bends meet there. At a corner the neighbours span the
   // body's cone; at a vertex within an edge or a facet they need not.
   bool is_corner(int v) const;
+  // How far the cone of v's edges is from flat: a unit axis makes at least this cosine with each of
+  // them. Positive only at corners; if no edge w - v of a corner has n.(w - v) > eps |w - v|, then no
+  // point of the body is further along n than v by more than eps times the diameter over this.
+  double corner_margin(int v) const { return data_->corner_margins[v]; }
 
   // The face across edge e from face f.
   int face_across(int e, int f) const { return edge(e).left == f ? edge(e).right : edge(e).left; }

@@ -11,6 +11,7 @@
 
 #include "touchstone/core/convex/convex_polyhedron.h"
 #include "touchstone/core/convex/convexity_internal.h"
+#include "touchstone/core/convex/corner_margins_internal.h"
 #include "touchstone/core/convex/face_planes_internal.h"
 #include "touchstone/core/convex/interior_points_internal.h"
 #include "touchstone/core/convex/orientation_internal.h"
@@ -180,6 +181,7 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
   if (Status status = internal::CheckSingleWinding(orientation, *data, o); !status.ok()) {
     return status;
   }
+  data->corner_margins = internal::CornerMargins(*data);
   data->support = SupportTable(*data);
   ConvexPolyhedron body(std::move(data));
   assert(body.FindValidationError().ok());

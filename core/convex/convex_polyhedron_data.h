@@ -31,6 +31,7 @@ struct ConvexPolyhedronData {
   Eigen::Matrix3d second_moments = Eigen::Matrix3d::Zero();
   double max_coordinate = 0.0;
   double diameter_bound = 0.0;
+  std::vector<double> corner_margins;
   SupportTable support;
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }

@@ -5,8 +5,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "touchstone/core/base/vector_clones.h"
 #include "touchstone/core/convex/convex_polyhedron_data.h"
 
 namespace touchstone {
@@ -16,6 +18,9 @@ namespace {
 constexpr int kScanLimit = 12;  // corners: a scan is faster up to here
 constexpr double kCellsPerCorner = 8;
 constexpr int kMaxResolution = 1024;
+// Eight doubles in the compiler's own vector type: a loop over lanes is unrolled before it is vectorised.
+using Lanes = double __attribute__((vector_size(64)));
+using HalfLanes = double __attribute__((vector_size(32)));
 constexpr long kFillBudget = 8;  // blocks per cell
 constexpr int kScanLanes = 4;
 static_assert(kScanLimit % kScanLanes == 0 && kScanLimit <= 32);
@@ -184,6 +189,7 @@ void SupportTable::FillCells() {
   }
 }
 
+TOUCHSTONE_VECTOR_CLONES
 int SupportTable::Scan(double x, double y, double z) const {
   // Which corner is the highest is as good as random: a branch on it costs more than all heights.
   const auto n = static_cast<int>(scan_vertices_.size());
@@ -209,6 +215,7 @@ int SupportTable::Scan(double x, double y, double z) const {
 
 // Ends, because each move strictly raises the height, and the height of a corner is one number: the
 // same doubles in the same order of operations, wherever its coordinates are stored.
+TOUCHSTONE_VECTOR_CLONES
 int SupportTable::Climb(int place, double x, double y, double z, long* budget, long* steps) const {
   const Block* block = &blocks_[place];
   double height = x * block->own_x + y * block->own_y + z * block->own_z;
@@ -217,10 +224,15 @@ int SupportTable::Climb(int place, double x, double y, double z, long* budget, l
     const int block_count = block->block_count;
     *budget -= block_count;
     for (int i = 0; i < block_count; ++i, ++block) {
-      std::array<double, kLanes> h;
-      std::array<double, kLanes / 2> top;
-      for (int k = 0; k < 8; ++k) h[k] = x * block->x[k] + y * block->y[k] + z * block->z[k];
-      for (int k = 0; k < 4; ++k) top[k] = std::max(h[k], h[k + 4]);
+      Lanes xs, ys, zs;
+      std::memcpy(&xs, block->x, sizeof xs);
+      std::memcpy(&ys, block->y, sizeof ys);
+      std::memcpy(&zs, block->z, sizeof zs);
+      const Lanes h = x * xs + y * ys + z * zs;
+      HalfLanes low, high;
+      std::memcpy(&low, &h, sizeof low);
+      std::memcpy(&high, reinterpret_cast<const char*>(&h) + sizeof low, sizeof high);
+      const HalfLanes top = low > high ? low : high;
       const double highest = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
       if (highest > height) {
         height = highest;

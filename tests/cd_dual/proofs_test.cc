@@ -51,11 +51,6 @@ TEST(Signs, FilterNeverContradictsExactSigns) {
         ++settled;
         ASSERT_EQ(*sign, Dot(ToDyadic(n), exact.exact().Point(x)).sign());
       }
-      ++asked;
-      if (const auto sign = in_doubles.AlongDirectionEdge(n, Body::kQ, x.q, y.q)) {
-        ++settled;
-        ASSERT_EQ(*sign, Dot(ToDyadic(n), exact.exact().Edge(Body::kQ, x.q, y.q)).sign());
-      }
       FacetPlane plane = in_doubles.Plane({x, y, pair()});
       FacetPlane plane_exact = exact.Plane(plane.points);
       for (const Body body : {Body::kP, Body::kQ}) {
@@ -89,6 +84,21 @@ TEST(ProveSeparatingDirection, DeclinesADirectionThatDoesNotSeparate) {
   EXPECT_TRUE(ProveSeparatingDirection(&signs, good, support(good)));
   EXPECT_FALSE(ProveSeparatingDirection(&signs, bad, support(bad)));
   EXPECT_FALSE(ProveSeparatingDirection(&signs, -good, support(-good)));
+}
+
+TEST(ProveSeparatingDirection, TiesCostNoScanWhereTheMarginSuffices) {
+  // Along a face's normal a whole face of the box is level with the support; the corner's margin,
+  // 1/sqrt(3), shows that rounding hides less than 1e-13 of the size.
+  const ConvexPolyhedron box = MustBuild(Box({1, 1, 1}));
+  const Eigen::Matrix3d turned = Random(32).Rotation();
+  MinkowskiDifference m(box, box, MustPose(turned, turned * Eigen::Vector3d(0, 0, 3)));
+  Signs signs(m, Certainty::kExact);
+  PhaseCounts counts;
+  const Eigen::Vector3d n = -(turned * Eigen::Vector3d(0, 0, 1));
+  for (int v = 0; v < 8; ++v) EXPECT_NEAR(box.corner_margin(v), 1.0 / std::sqrt(3.0), 1e-12);
+  const auto tier = ProveSeparatingDirection(&signs, n, m.Support(n, {}, &counts));
+  ASSERT_TRUE(tier);
+  EXPECT_EQ(*tier, Tier::kBound);
 }
 
 TEST(ProveSeparatingDirection, DeclinesAFalseSupportThatWouldSeparate) {

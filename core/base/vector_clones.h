@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#ifndef TOUCHSTONE_CORE_BASE_VECTOR_CLONES_H_
+#define TOUCHSTONE_CORE_BASE_VECTOR_CLONES_H_
+
+// TOUCHSTONE_VECTOR_CLONES before a function compiles it several times, for AVX-512, AVX2 and the
+// baseline, and lets the loader pick by the processor. Only for loops over lanes that the compiler
+// vectorises; operations and their order are the same in every clone (no contraction to fused
+// multiply-add), and so are the results, bit for bit.
+//
+// Left out where the loader's choice does not get along with the tool: sanitizers, other compilers.
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define TOUCHSTONE_VECTOR_CLONES \
+  __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define TOUCHSTONE_VECTOR_CLONES
+#endif
+
+#endif  // TOUCHSTONE_CORE_BASE_VECTOR_CLONES_H_
