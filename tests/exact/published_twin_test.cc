@@ -108,7 +108,23 @@ TEST(PublishedTwin, FiveVerticesInGeneralPositionAreCalledOverlapping) {
             Verdict::kOverlap);
 }
 
-// Two tetrahedra with coordinates of 0 and 1 alone, separate, called overlapping though both first
+// The same with bodies of coordinates at most 2: the final face has 5/4 where 17/13 is the exit's,
+// for t = (2,2,-1); ratios grow with t, and 25/32 of it lies between the two.
+TEST(PublishedTwin, FiveVerticesOfCoordinatesAtMostTwoAreCalledOverlapping) {
+  const ExactBody p = AroundOrigin({{1, -2, 1}, {1, 1, 0}, {0, -1, -2}, {0, 1, 0}, {-2, 2, 2}});
+  const ExactBody q = AroundOrigin({{-1, -2, 0}, {0, -2, 2}, {1, -1, -1}, {0, 2, -1}});
+  for (const double scale : {1.0, 0.78125}) {
+    const RelativePose pose = Pose(Eigen::Matrix3d::Identity(), scale * Eigen::Vector3d(2, 2, -1));
+    const TwinResult twin = RunPublishedTwin(p, q, pose);
+    EXPECT_EQ(twin.ratio, Q(5, 4) * mpq_class(scale));
+    const ExactDecision truth = Decide(p, q, pose);
+    EXPECT_EQ(1 / truth.exit->parameter, Q(17, 13) * mpq_class(scale));
+    EXPECT_EQ(truth.verdict, Verdict::kSeparate);
+    EXPECT_EQ(twin.result.verdict, scale == 1.0 ? Verdict::kSeparate : Verdict::kOverlap);
+  }
+}
+
+// Two tetrahedra with coordinates -1, 0 and 1, separate, called overlapping though both first
 // phases are at their maxima: P's face 0 2 3 is parallel to Q's edge 0-3, the supporting vertex 0
 // is as good as 3, and the edge pair (0-3, 3-2) that leads on meets Q at 3.
 TEST(PublishedTwin, UnitTetrahedraWithAParallelEdgeAreCalledOverlapping) {
