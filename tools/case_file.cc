@@ -17,7 +17,8 @@ constexpr int kVersion = 1;
 // A face or body line may announce no more than this.
 constexpr int kMaxElements = 10'000'000;
 
-void WriteRows(std::ostream& out, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
+void WriteRows(std::ostream& out, const Eigen::Matrix3d& rotation,
+               const Eigen::Vector3d& translation) {
   for (int i = 0; i < 3; ++i) {
     out << "row";
     for (int j = 0; j < 3; ++j) out << ' ' << HexDouble(rotation(i, j));
@@ -74,9 +75,9 @@ class Reader {
     ConvexPolyhedron p = ReadBody("p");
     ConvexPolyhedron q = ReadBody("q");
     Next("end");
-    return {header.suite,      header.seed,    header.index,  header.search,
-            header.certainty,  header.early_exit, header.finding, header.detail,
-            {std::move(p), std::move(q), pose, header.expected}};
+    return {header.suite,   header.seed,      header.index,
+            header.search,  header.certainty, header.early_exit,
+            header.finding, header.detail,    {std::move(p), std::move(q), pose, header.expected}};
   }
 
  private:
@@ -112,11 +113,13 @@ class Reader {
     Expect(keyword);
   }
   void Expect(std::string_view keyword) const {
-    if (words_[0] != keyword) Fail("'" + words_[0] + "' where '" + std::string(keyword) + "' should be");
+    if (words_[0] != keyword)
+      Fail("'" + words_[0] + "' where '" + std::string(keyword) + "' should be");
   }
   void ExpectWords(std::size_t count) const {
     if (words_.size() != count) {
-      Fail("'" + words_[0] + "' takes " + std::to_string(count - 1) + " words, not " + std::to_string(words_.size() - 1));
+      Fail("'" + words_[0] + "' takes " + std::to_string(count - 1) + " words, not " +
+           std::to_string(words_.size() - 1));
     }
   }
 
@@ -129,9 +132,11 @@ class Reader {
   int Int(std::size_t k) const { return Need(ParseInteger<int>(words_[k]), words_[k]); }
 
   void ReadMagic() {
-    if (!NextLine() || words_[0] != kMagic) Fail("not a case file: it must begin with '" + std::string(kMagic) + " 1'");
+    if (!NextLine() || words_[0] != kMagic)
+      Fail("not a case file: it must begin with '" + std::string(kMagic) + " 1'");
     ExpectWords(2);
-    if (Int(1) != kVersion) Fail("version " + words_[1] + " is unknown; this program reads version 1");
+    if (Int(1) != kVersion)
+      Fail("version " + words_[1] + " is unknown; this program reads version 1");
   }
 
   void ReadHeaderLine(Header& header) {
@@ -139,20 +144,30 @@ class Reader {
     if (keyword == "finding") {
       if (words_.size() < 2) Fail("'finding' takes a kind");
       header.finding = words_[1];
-      for (std::size_t k = 2; k < words_.size(); ++k) header.detail += (k == 2 ? "" : " ") + words_[k];
+      for (std::size_t k = 2; k < words_.size(); ++k)
+        header.detail += (k == 2 ? "" : " ") + words_[k];
       return;
     }
     ExpectWords(2);
     const std::string& word = words_[1];
-    if (keyword == "suite") header.suite = word;
-    else if (keyword == "seed") header.seed = Need(ParseInteger<std::uint64_t>(word), word);
-    else if (keyword == "index") header.index = Need(ParseInteger<std::uint64_t>(word), word);
-    else if (keyword == "search") header.search = Need(SearchFromWord(word), word);
-    else if (keyword == "certainty") header.certainty = Need(CertaintyFromWord(word), word);
-    else if (keyword == "expected") header.expected = Need(VerdictFromWord(word), word);
-    else if (keyword == "early-exit" && (word == "yes" || word == "no")) header.early_exit = word == "yes";
-    else if (keyword == "early-exit") Fail("'early-exit' takes yes or no");
-    else Fail("unknown keyword '" + keyword + "'");
+    if (keyword == "suite")
+      header.suite = word;
+    else if (keyword == "seed")
+      header.seed = Need(ParseInteger<std::uint64_t>(word), word);
+    else if (keyword == "index")
+      header.index = Need(ParseInteger<std::uint64_t>(word), word);
+    else if (keyword == "search")
+      header.search = Need(SearchFromWord(word), word);
+    else if (keyword == "certainty")
+      header.certainty = Need(CertaintyFromWord(word), word);
+    else if (keyword == "expected")
+      header.expected = Need(VerdictFromWord(word), word);
+    else if (keyword == "early-exit" && (word == "yes" || word == "no"))
+      header.early_exit = word == "yes";
+    else if (keyword == "early-exit")
+      Fail("'early-exit' takes yes or no");
+    else
+      Fail("unknown keyword '" + keyword + "'");
   }
 
   WorldPose ReadRows() {
@@ -172,8 +187,9 @@ class Reader {
     const bool world = words_[1] == "world";
     if (!world && words_[1] != "relative") Fail("'pose' takes relative or world");
     const WorldPose first = ReadRows();
-    const StatusOr<RelativePose> pose = world ? RelativePose::FromWorld(first, ReadRows())
-                                              : RelativePose::Make(first.rotation, first.translation);
+    const StatusOr<RelativePose> pose = world
+                                            ? RelativePose::FromWorld(first, ReadRows())
+                                            : RelativePose::Make(first.rotation, first.translation);
     if (!pose.ok()) Fail("the pose that ends here: " + pose.status().ToString());
     return *pose;
   }
@@ -181,10 +197,12 @@ class Reader {
   ConvexPolyhedron ReadBody(std::string_view name) {
     Next("body");
     ExpectWords(4);
-    if (words_[1] != name) Fail("body '" + words_[1] + "' where body '" + std::string(name) + "' should be");
+    if (words_[1] != name)
+      Fail("body '" + words_[1] + "' where body '" + std::string(name) + "' should be");
     const int vertex_count = Int(2);
     const int face_count = Int(3);
-    if (vertex_count < 0 || vertex_count > kMaxElements || face_count < 0 || face_count > kMaxElements) {
+    if (vertex_count < 0 || vertex_count > kMaxElements || face_count < 0 ||
+        face_count > kMaxElements) {
       Fail("no body has that many vertices and faces");
     }
     std::vector<Eigen::Vector3d> vertices;
@@ -200,7 +218,8 @@ class Reader {
       for (std::size_t k = 1; k < words_.size(); ++k) loop.push_back(Int(k));
     }
     StatusOr<ConvexPolyhedron> body = ConvexPolyhedron::Build(vertices, faces);
-    if (!body.ok()) Fail("body " + std::string(name) + ", which ends here: " + body.status().ToString());
+    if (!body.ok())
+      Fail("body " + std::string(name) + ", which ends here: " + body.status().ToString());
     return *body;
   }
 
@@ -236,7 +255,8 @@ Loaded<CaseFile> ReadCase(const std::string& path) {
   try {
     return reader.Read();
   } catch (const BadLine& bad) {
-    return Loaded<CaseFile>::Error(path + ":" + std::to_string(reader.line_number()) + ": " + bad.message);
+    return Loaded<CaseFile>::Error(path + ":" + std::to_string(reader.line_number()) + ": " +
+                                   bad.message);
   }
 }
 

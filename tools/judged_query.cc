@@ -26,7 +26,8 @@ std::vector<NamedFinding> Named(std::span<const exact::Finding> findings) {
 }
 
 bool SharesKind(const std::vector<NamedFinding>& findings, const std::string& kind) {
-  return std::any_of(findings.begin(), findings.end(), [&](const auto& finding) { return finding.kind == kind; });
+  return std::any_of(findings.begin(), findings.end(),
+                     [&](const auto& finding) { return finding.kind == kind; });
 }
 
 // The paper's pseudocode from the same c, in exact arithmetic. c = o is outside it.
@@ -40,8 +41,9 @@ void JudgePaper(const PlacedPair& pair, const exact::ExactBody& p, const exact::
                                                          query.result.interior_q, twin_options);
   query.findings = Named(exact::JudgeTwin(p, q, pair.pose, twin, twin_options));
   query.twin_ran = true;
-  std::erase_if(query.rounding_findings,
-                [&](const NamedFinding& finding) { return SharesKind(query.findings, finding.kind); });
+  std::erase_if(query.rounding_findings, [&](const NamedFinding& finding) {
+    return SharesKind(query.findings, finding.kind);
+  });
 }
 
 }  // namespace
@@ -64,8 +66,8 @@ JudgedQuery Ask(const PlacedPair& pair, const CollideOptions& options) {
   return query;
 }
 
-JudgedQuery AskAndJudge(const PlacedPair& pair, const CollideOptions& options, const JudgeDepth& depth,
-                        ExactBodies& bodies) {
+JudgedQuery AskAndJudge(const PlacedPair& pair, const CollideOptions& options,
+                        const JudgeDepth& depth, ExactBodies& bodies) {
   JudgedQuery query = Ask(pair, options);
   const Clock::time_point start = Clock::now();
   const exact::ExactBody p = bodies.Get(pair.p);
@@ -80,8 +82,9 @@ JudgedQuery AskAndJudge(const PlacedPair& pair, const CollideOptions& options, c
     JudgePaper(pair, p, q, options, depth.twin, query);
   } else if (pair.expected && query.result.verdict != Verdict::kUndecided &&
              query.result.verdict != *pair.expected) {
-    query.findings.push_back({"unexpected_verdict", "the suite is certain of " + std::string(ToString(*pair.expected)) +
-                                                        ", not " + std::string(ToString(query.result.verdict))});
+    query.findings.push_back(
+        {"unexpected_verdict", "the suite is certain of " + std::string(ToString(*pair.expected)) +
+                                   ", not " + std::string(ToString(query.result.verdict))});
   }
   query.judge_ns = NanosecondsSince(start);
   return query;

@@ -32,10 +32,11 @@ struct JudgedQuery {
   CollideResult result;
   double search_ns = 0.0;
   double judge_ns = 0.0;
-  // kPublished: what the exact replay of the paper's pseudocode gets wrong. Else: what the judge found.
+  // kPublished: what the exact replay of the paper's pseudocode gets wrong. Else: what the judge
+  // found.
   std::vector<NamedFinding> findings;
-  // kPublished: what the judge found in the core's run and the exact replay does not share; an effect of
-  // rounding, which the paper is not blamed for.
+  // kPublished: what the judge found in the core's run and the exact replay does not share; an
+  // effect of rounding, which the paper is not blamed for.
   std::vector<NamedFinding> rounding_findings;
   bool twin_ran = false;
 };
@@ -54,8 +55,8 @@ class ExactBodies {
 // Runs the query without judging it.
 JudgedQuery Ask(const PlacedPair& pair, const CollideOptions& options);
 // Runs and judges it.
-JudgedQuery AskAndJudge(const PlacedPair& pair, const CollideOptions& options, const JudgeDepth& depth,
-                        ExactBodies& bodies);
+JudgedQuery AskAndJudge(const PlacedPair& pair, const CollideOptions& options,
+                        const JudgeDepth& depth, ExactBodies& bodies);
 
 }  // namespace touchstone
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The one place that uses CGAL's readers. They report failure by a false, so the position of the stream
-// tells where they stopped; they trust counts in the file, so memory is limited while they run.
+// The one place that uses CGAL's readers. They report failure by a false, so the position of the
+// stream tells where they stopped; they trust counts in the file, so memory is limited while they
+// run.
 #include "touchstone/tools/mesh_io.h"
 
 #include <CGAL/IO/OBJ.h>
@@ -31,7 +32,8 @@ using CgalPoint = CGAL::Simple_cartesian<double>::Point_3;
 using CgalPoints = std::vector<CgalPoint>;
 using CgalPolygons = std::vector<std::vector<std::size_t>>;
 
-// A file of 20 bytes may announce 10^9 vertices. Bodies take some hundred bytes a byte of file at most.
+// A file of 20 bytes may announce 10^9 vertices. Bodies take some hundred bytes a byte of file at
+// most.
 constexpr rlim_t kMemoryForReading = rlim_t{1} << 32;
 
 // Address sanitizers reserve terabytes and cannot run under the limit.
@@ -79,7 +81,8 @@ std::string LowerExtension(const std::string& path) {
   return extension;
 }
 
-bool CallReader(const std::string& extension, std::istream& in, CgalPoints& points, CgalPolygons& polygons) {
+bool CallReader(const std::string& extension, std::istream& in, CgalPoints& points,
+                CgalPolygons& polygons) {
   const auto quiet = CGAL::parameters::verbose(false);
   if (extension == ".off") return CGAL::IO::read_OFF(in, points, polygons, quiet);
   if (extension == ".obj") return CGAL::IO::read_OBJ(in, points, polygons, quiet);
@@ -91,18 +94,21 @@ bool CallReader(const std::string& extension, std::istream& in, CgalPoints& poin
 std::string Where(const std::string& content, std::istream& in) {
   in.clear();
   const auto told = in.tellg();
-  const std::size_t position = told < 0 ? content.size() : std::min(content.size(), static_cast<std::size_t>(told));
+  const std::size_t position =
+      told < 0 ? content.size() : std::min(content.size(), static_cast<std::size_t>(told));
   const bool at_end = position >= content.size();
   if (content.find('\0') != std::string::npos) {
     return ": byte " + std::to_string(position) + (at_end ? " (end of file)" : "");
   }
-  const auto newlines = std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(position), '\n');
+  const auto newlines =
+      std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(position), '\n');
   const bool line_done = position > 0 && content[position - 1] == '\n';
   return ": line " + std::to_string(std::max<std::ptrdiff_t>(1, newlines + (line_done ? 0 : 1))) +
          (at_end ? " (end of file)" : "");
 }
 
-Loaded<PolygonSoup> ToSoup(const std::string& path, const CgalPoints& points, const CgalPolygons& polygons) {
+Loaded<PolygonSoup> ToSoup(const std::string& path, const CgalPoints& points,
+                           const CgalPolygons& polygons) {
   using Result = Loaded<PolygonSoup>;
   PolygonSoup soup;
   for (const CgalPoint& point : points) soup.points.emplace_back(point.x(), point.y(), point.z());
@@ -110,7 +116,8 @@ Loaded<PolygonSoup> ToSoup(const std::string& path, const CgalPoints& points, co
     std::vector<int> loop;
     for (const std::size_t v : polygons[f]) {
       if (v >= points.size()) {
-        return Result::Error(path + ": face " + std::to_string(f) + " names a vertex that does not exist (there are " +
+        return Result::Error(path + ": face " + std::to_string(f) +
+                             " names a vertex that does not exist (there are " +
                              std::to_string(points.size()) + ")");
       }
       loop.push_back(static_cast<int>(v));
@@ -127,7 +134,8 @@ void MergeEqualPoints(PolygonSoup& soup) {
   for (const Eigen::Vector3d& x : soup.points) {
     // NaN would break the order; the builder refuses it by name.
     if (x.hasNaN()) return;
-    const auto [entry, fresh] = index_of.try_emplace({x[0], x[1], x[2]}, static_cast<int>(points.size()));
+    const auto [entry, fresh] =
+        index_of.try_emplace({x[0], x[1], x[2]}, static_cast<int>(points.size()));
     if (fresh) points.push_back(x);
     merged.push_back(entry->second);
   }
@@ -195,9 +203,11 @@ Loaded<ConvexPolyhedron> ReadBody(const std::string& path, bool hull) {
   const Loaded<PolygonSoup> soup = ReadPolygonSoup(path);
   if (!soup.ok()) return Result::Error(soup.error());
   const StatusOr<ConvexPolyhedron> body =
-      hull ? exact::ConvexHull(soup->points) : ConvexPolyhedron::Build(soup->points, soup->polygons);
+      hull ? exact::ConvexHull(soup->points)
+           : ConvexPolyhedron::Build(soup->points, soup->polygons);
   if (body.ok()) return *body;
-  return Result::Error(path + ": " + body.status().ToString() + (hull ? "" : " (--hull takes the convex hull)"));
+  return Result::Error(path + ": " + body.status().ToString() +
+                       (hull ? "" : " (--hull takes the convex hull)"));
 }
 
 }  // namespace touchstone

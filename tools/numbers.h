@@ -13,8 +13,8 @@
 
 namespace touchstone {
 
-// The nearest double to a whole word: decimal (1.5e-3), hexadecimal (0x1.8p-3), nan or inf. Nothing for
-// any other word, and for a number beyond a double's range.
+// The nearest double to a whole word: decimal (1.5e-3), hexadecimal (0x1.8p-3), nan or inf. Nothing
+// for any other word, and for a number beyond a double's range.
 std::optional<double> ParseDouble(std::string_view word);
 
 // Hexadecimal, every bit: 0x1.8p-3.

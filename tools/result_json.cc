@@ -10,7 +10,9 @@ namespace {
 
 Json ToJson(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
-Json ToJson(const Feature& feature) { return {{"kind", ToString(feature.kind)}, {"index", feature.index}}; }
+Json ToJson(const Feature& feature) {
+  return {{"kind", ToString(feature.kind)}, {"index", feature.index}};
+}
 
 Json ToJson(const BoundedValue& value) {
   return {{"value", value.value}, {"error", value.error}, {"condition", value.condition}};
@@ -25,12 +27,17 @@ Json ToJson(const std::array<VertexPair, 3>& pairs) {
 Json ToJson(const Certificate& certificate) {
   Json json = {{"kind", ToString(certificate.kind)}};
   switch (certificate.kind) {
-    case CertificateKind::kSeparatingDirection: json["direction"] = ToJson(certificate.direction); break;
+    case CertificateKind::kSeparatingDirection:
+      json["direction"] = ToJson(certificate.direction);
+      break;
     case CertificateKind::kSeparatingFacet:
     case CertificateKind::kEnclosingTetrahedron:
-    case CertificateKind::kTouchingFacet: json["points"] = ToJson(certificate.points); break;
+    case CertificateKind::kTouchingFacet:
+      json["points"] = ToJson(certificate.points);
+      break;
     case CertificateKind::kNone:
-    case CertificateKind::kCoincidentInterior: break;
+    case CertificateKind::kCoincidentInterior:
+      break;
   }
   return json;
 }
@@ -47,8 +54,8 @@ Json ToJson(const PhaseReport& report) {
 }
 
 Json ToJson(const TraceStep& step) {
-  return {{"phase", ToString(step.phase)},       {"class", ToString(step.face_class)},
-          {"feature_p", ToJson(step.feature_p)}, {"feature_q", ToJson(step.feature_q)},
+  return {{"phase", ToString(step.phase)},           {"class", ToString(step.face_class)},
+          {"feature_p", ToJson(step.feature_p)},     {"feature_q", ToJson(step.feature_q)},
           {"signed_distance", step.signed_distance}, {"accepted", step.accepted}};
 }
 
@@ -65,18 +72,22 @@ std::string Text(const Eigen::Vector3d& v) {
 std::string Text(const std::array<VertexPair, 3>& pairs) {
   std::string text;
   for (const VertexPair& pair : pairs) {
-    text += (text.empty() ? "" : " ") + std::string("(p") + std::to_string(pair.p) + " - q" + std::to_string(pair.q) + ")";
+    text += (text.empty() ? "" : " ") + std::string("(p") + std::to_string(pair.p) + " - q" +
+            std::to_string(pair.q) + ")";
   }
   return text;
 }
 
-std::string Text(const BoundedValue& value) { return ShortDouble(value.value) + " +- " + ShortDouble(value.error); }
+std::string Text(const BoundedValue& value) {
+  return ShortDouble(value.value) + " +- " + ShortDouble(value.error);
+}
 
 void PrintCertificate(std::ostream& out, const Certificate& certificate) {
   out << "certificate      " << ToString(certificate.kind);
   if (certificate.kind == CertificateKind::kSeparatingDirection) {
     out << " " << Text(certificate.direction);
-  } else if (certificate.kind != CertificateKind::kNone && certificate.kind != CertificateKind::kCoincidentInterior) {
+  } else if (certificate.kind != CertificateKind::kNone &&
+             certificate.kind != CertificateKind::kCoincidentInterior) {
     out << " " << Text(certificate.points);
   }
   out << "\n";
@@ -86,8 +97,9 @@ void PrintTrace(std::ostream& out, const std::vector<TraceStep>& trace) {
   if (trace.empty()) return;
   out << "faces visited\n";
   for (const TraceStep& step : trace) {
-    out << "  " << ToString(step.phase) << "  " << ToString(step.face_class) << "  " << Text(step.feature_p) << ", "
-        << Text(step.feature_q) << "  d = " << ShortDouble(step.signed_distance) << (step.accepted ? "  *" : "") << "\n";
+    out << "  " << ToString(step.phase) << "  " << ToString(step.face_class) << "  "
+        << Text(step.feature_p) << ", " << Text(step.feature_q)
+        << "  d = " << ShortDouble(step.signed_distance) << (step.accepted ? "  *" : "") << "\n";
   }
 }
 
@@ -119,10 +131,11 @@ Json ToJson(const CollideResult& result) {
   }
   for (int i = 0; i < kPhaseCount; ++i) {
     const PhaseCounts& counts = result.counts[i];
-    json["counts"][std::string(ToString(static_cast<Phase>(i)))] = {{"faces_visited", counts.faces_visited},
-                                                                    {"support_calls", counts.support_calls},
-                                                                    {"climb_steps", counts.climb_steps},
-                                                                    {"arc_tests", counts.arc_tests}};
+    json["counts"][std::string(ToString(static_cast<Phase>(i)))] = {
+        {"faces_visited", counts.faces_visited},
+        {"support_calls", counts.support_calls},
+        {"climb_steps", counts.climb_steps},
+        {"arc_tests", counts.arc_tests}};
   }
   if (!result.trace.empty()) {
     json["trace"] = Json::array();
@@ -133,22 +146,25 @@ Json ToJson(const CollideResult& result) {
 
 Json ToJson(const std::vector<NamedFinding>& findings) {
   Json json = Json::array();
-  for (const NamedFinding& finding : findings) json.push_back({{"kind", finding.kind}, {"detail", finding.detail}});
+  for (const NamedFinding& finding : findings)
+    json.push_back({{"kind", finding.kind}, {"detail", finding.detail}});
   return json;
 }
 
 void PrintResult(std::ostream& out, const CollideResult& result) {
   out << "verdict          " << ToString(result.verdict) << "\n"
-      << "decided          by " << ToString(result.tier) << ", in " << ToString(result.phase) << ", "
-      << ToString(result.termination) << "\n";
+      << "decided          by " << ToString(result.tier) << ", in " << ToString(result.phase)
+      << ", " << ToString(result.termination) << "\n";
   if (result.face) {
-    out << "exit face        " << ToString(result.face->face_class) << ": " << Text(result.face->feature_p) << " of P, "
-        << Text(result.face->feature_q) << " of Q, through " << Text(result.face->triangle) << "\n";
+    out << "exit face        " << ToString(result.face->face_class) << ": "
+        << Text(result.face->feature_p) << " of P, " << Text(result.face->feature_q)
+        << " of Q, through " << Text(result.face->triangle) << "\n";
   }
   if (result.signed_distance) out << "signed distance  " << Text(*result.signed_distance) << "\n";
   if (result.exit_travel) out << "exit travel      " << Text(*result.exit_travel) << "\n";
   if (result.exit_point) {
-    out << "exit point       " << Text(*result.exit_point) << " +- " << ShortDouble(result.exit_point_error) << "\n";
+    out << "exit point       " << Text(*result.exit_point) << " +- "
+        << ShortDouble(result.exit_point_error) << "\n";
   }
   PrintCertificate(out, result.certificate);
   for (std::size_t i = 0; i < kSearchPhases.size(); ++i) {
@@ -156,8 +172,8 @@ void PrintResult(std::ostream& out, const CollideResult& result) {
     if (report.claim == PhaseClaim::kNotRun) continue;
     out << "phase            " << ToString(kSearchPhases[i]) << ": " << ToString(report.claim);
     if (report.face_class) {
-      out << ", " << ToString(*report.face_class) << ", " << Text(report.feature_p) << ", " << Text(report.feature_q)
-          << ", d = " << ShortDouble(report.signed_distance);
+      out << ", " << ToString(*report.face_class) << ", " << Text(report.feature_p) << ", "
+          << Text(report.feature_q) << ", d = " << ShortDouble(report.signed_distance);
     }
     out << "\n";
   }

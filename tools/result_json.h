@@ -15,8 +15,8 @@ using Json = nlohmann::ordered_json;
 Json ToJson(const CollideResult& result);
 Json ToJson(const std::vector<NamedFinding>& findings);
 
-// The result as lines for a reader: verdict, tier, face, d, g, certificate, and the trace when there is
-// one.
+// The result as lines for a reader: verdict, tier, face, d, g, certificate, and the trace when
+// there is one.
 void PrintResult(std::ostream& out, const CollideResult& result);
 
 }  // namespace touchstone

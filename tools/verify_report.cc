@@ -13,7 +13,8 @@
 namespace touchstone {
 namespace {
 
-constexpr std::array kAllVerdicts = {Verdict::kSeparate, Verdict::kTouch, Verdict::kOverlap, Verdict::kUndecided};
+constexpr std::array kAllVerdicts = {Verdict::kSeparate, Verdict::kTouch, Verdict::kOverlap,
+                                     Verdict::kUndecided};
 constexpr std::array kAllTiers = {Tier::kBound, Tier::kScan, Tier::kExact, Tier::kNone};
 
 template <class Enum>
@@ -25,7 +26,8 @@ double JudgedPerSecond(const SearchStats& stats) {
   return stats.judge_seconds > 0.0 ? static_cast<double>(stats.queries) / stats.judge_seconds : 0.0;
 }
 
-SearchStats SumOver(const VerifyOptions& options, const std::vector<SuiteStats>& stats, Search search) {
+SearchStats SumOver(const VerifyOptions& options, const std::vector<SuiteStats>& stats,
+                    Search search) {
   SearchStats sum;
   for (const SuiteStats& suite : stats) {
     for (std::size_t s = 0; s < options.searches.size(); ++s) {
@@ -43,12 +45,15 @@ Json CoverageJson(const SearchStats& stats) {
                {"phase_maxima_checked", stats.phase_maxima_checked},
                {"constructed", stats.constructed},
                {"twin_runs", stats.twin_runs}};
-  for (const Tier tier : kAllTiers) json["tiers"][std::string(ToString(tier))] = At(stats.tiers, tier);
+  for (const Tier tier : kAllTiers)
+    json["tiers"][std::string(ToString(tier))] = At(stats.tiers, tier);
   json["combinations"] = Json::array();
   for (const auto& [key, count] : stats.coverage) {
     const auto& [search, face_class, phase, verdict] = key;
-    json["combinations"].push_back(
-        {{"class", face_class}, {"phase", ToString(phase)}, {"verdict", ToString(verdict)}, {"count", count}});
+    json["combinations"].push_back({{"class", face_class},
+                                    {"phase", ToString(phase)},
+                                    {"verdict", ToString(verdict)},
+                                    {"count", count}});
   }
   return json;
 }
@@ -87,16 +92,18 @@ std::string Percent(std::uint64_t part, std::uint64_t whole) {
   return Fixed(100.0 * static_cast<double>(part) / static_cast<double>(whole), 1) + "%";
 }
 
-// The row's cells that do not depend on which searches ran come from any proven search, or else from the
-// one there is.
-const SearchStats& Representative(const VerifyOptions& options, const std::vector<SearchStats>& by_search) {
+// The row's cells that do not depend on which searches ran come from any proven search, or else
+// from the one there is.
+const SearchStats& Representative(const VerifyOptions& options,
+                                  const std::vector<SearchStats>& by_search) {
   for (std::size_t s = 0; s < by_search.size(); ++s) {
     if (options.searches[s] != Search::kPublished) return by_search[s];
   }
   return by_search.front();
 }
 
-const SearchStats* Find(const VerifyOptions& options, const std::vector<SearchStats>& by_search, Search search) {
+const SearchStats* Find(const VerifyOptions& options, const std::vector<SearchStats>& by_search,
+                        Search search) {
   for (std::size_t s = 0; s < by_search.size(); ++s) {
     if (options.searches[s] == search) return &by_search[s];
   }
@@ -121,18 +128,22 @@ std::vector<std::string> SuiteRow(const VerifyOptions& options, const std::strin
   }
   const SearchStats* published = Find(options, by_search, Search::kPublished);
   row.push_back(published ? Fixed(published->search_ns.Median(), 0) : "-");
-  const auto wrong = published ? published->findings.find("wrong_verdict") : decltype(published->findings.end()){};
-  row.push_back(!published ? "-" : std::to_string(wrong == published->findings.end() ? 0 : wrong->second));
+  const auto wrong =
+      published ? published->findings.find("wrong_verdict") : decltype(published->findings.end()){};
+  row.push_back(
+      !published ? "-" : std::to_string(wrong == published->findings.end() ? 0 : wrong->second));
   row.push_back(!published ? "-"
                            : std::to_string(published->failed_queries) + " (" +
                                  Percent(published->failed_queries, published->queries) + ")");
   return row;
 }
 
-void PrintFindings(std::ostream& out, const VerifyOptions& options, const std::vector<SuiteStats>& stats) {
+void PrintFindings(std::ostream& out, const VerifyOptions& options,
+                   const std::vector<SuiteStats>& stats) {
   for (const Search search : options.searches) {
     const SearchStats sum = SumOver(options, stats, search);
-    for (const auto& [kind, count] : sum.findings) out << ToString(search) << ": " << kind << " " << count << '\n';
+    for (const auto& [kind, count] : sum.findings)
+      out << ToString(search) << ": " << kind << " " << count << '\n';
     for (const auto& [kind, count] : sum.rounding_findings) {
       out << ToString(search) << ", in doubles only: " << kind << " " << count << '\n';
     }
@@ -146,7 +157,8 @@ VerifyTotals Total(const VerifyOptions& options, const std::vector<SuiteStats>& 
   for (const Search search : options.searches) {
     const SearchStats sum = SumOver(options, stats, search);
     total.queries += sum.queries;
-    (search == Search::kPublished ? total.published_findings : total.proven_findings) += sum.FindingCount();
+    (search == Search::kPublished ? total.published_findings : total.proven_findings) +=
+        sum.FindingCount();
   }
   return total;
 }
@@ -156,16 +168,20 @@ Json VerifyJson(const VerifyOptions& options, const std::vector<SuiteStats>& sta
   for (const SuiteStats& suite : stats) {
     for (std::size_t s = 0; s < options.searches.size(); ++s) {
       const SearchStats& one = suite.by_search[s];
-      Json row = {{"suite", suite.suite}, {"search", ToString(options.searches[s])},
-                  {"seed", options.seed}, {"queries", one.queries}};
-      for (const Verdict verdict : kAllVerdicts) row[std::string(ToString(verdict))] = At(one.verdicts, verdict);
+      Json row = {{"suite", suite.suite},
+                  {"search", ToString(options.searches[s])},
+                  {"seed", options.seed},
+                  {"queries", one.queries}};
+      for (const Verdict verdict : kAllVerdicts)
+        row[std::string(ToString(verdict))] = At(one.verdicts, verdict);
       row["findings"] = Json::object();
       for (const auto& [kind, count] : one.findings) row["findings"][kind] = count;
       row["exact_fallbacks"] = At(one.tiers, Tier::kExact);
       row["median_ns"] = one.search_ns.Median();
       row["judged_per_second"] = JudgedPerSecond(one);
       row["rounding_findings"] = Json::object();
-      for (const auto& [kind, count] : one.rounding_findings) row["rounding_findings"][kind] = count;
+      for (const auto& [kind, count] : one.rounding_findings)
+        row["rounding_findings"][kind] = count;
       row["failed_queries"] = one.failed_queries;
       row["n_at_least_100"] = one.n_at_least_100;
       row["twin_runs"] = one.twin_runs;
@@ -185,12 +201,13 @@ Json VerifyJson(const VerifyOptions& options, const std::vector<SuiteStats>& sta
             {"published_findings", total.published_findings}}}};
 }
 
-void PrintVerify(std::ostream& out, const VerifyOptions& options, const std::vector<SuiteStats>& stats) {
+void PrintVerify(std::ostream& out, const VerifyOptions& options,
+                 const std::vector<SuiteStats>& stats) {
   Table table;
-  table.Row({"", "", "", "", "", "", "", "phased", "phased", "phased", "portal", "portal", "portal", "published",
-             "published", "published"});
-  table.Row({"suite", "pairs", "n>=100", "separate", "touch", "overlap", "undecided", "exact", "ns", "findings",
-             "exact", "ns", "findings", "ns", "wrong verdict", "queries failed"});
+  table.Row({"", "", "", "", "", "", "", "phased", "phased", "phased", "portal", "portal", "portal",
+             "published", "published", "published"});
+  table.Row({"suite", "pairs", "n>=100", "separate", "touch", "overlap", "undecided", "exact", "ns",
+             "findings", "exact", "ns", "findings", "ns", "wrong verdict", "queries failed"});
   std::vector<SearchStats> sums(options.searches.size());
   for (const SuiteStats& suite : stats) {
     table.Row(SuiteRow(options, suite.suite, suite.by_search));
@@ -201,17 +218,21 @@ void PrintVerify(std::ostream& out, const VerifyOptions& options, const std::vec
   out << '\n';
   PrintFindings(out, options, stats);
   const VerifyTotals total = Total(options, stats);
-  out << "judged " << total.queries << " queries: " << total.proven_findings << " findings in the proven searches, "
-      << total.published_findings << " in the published one\n";
+  out << "judged " << total.queries << " queries: " << total.proven_findings
+      << " findings in the proven searches, " << total.published_findings
+      << " in the published one\n";
 }
 
-void PrintCoverage(std::ostream& out, const VerifyOptions& options, const std::vector<SuiteStats>& stats) {
+void PrintCoverage(std::ostream& out, const VerifyOptions& options,
+                   const std::vector<SuiteStats>& stats) {
   for (const Search search : options.searches) {
     const SearchStats sum = SumOver(options, stats, search);
-    out << ToString(search) << ": " << sum.queries << " queries, " << At(sum.verdicts, Verdict::kTouch)
-        << " exact touches, " << Percent(sum.n_at_least_100, sum.queries) << " with n >= 100, " << sum.constructed
-        << " in the construction tier, " << sum.phase_maxima_checked << " with phase maxima, " << sum.early_exits_asked
-        << " asked for an early exit, " << sum.twin_runs << " exact replays\n";
+    out << ToString(search) << ": " << sum.queries << " queries, "
+        << At(sum.verdicts, Verdict::kTouch) << " exact touches, "
+        << Percent(sum.n_at_least_100, sum.queries) << " with n >= 100, " << sum.constructed
+        << " in the construction tier, " << sum.phase_maxima_checked << " with phase maxima, "
+        << sum.early_exits_asked << " asked for an early exit, " << sum.twin_runs
+        << " exact replays\n";
     for (const Tier tier : kAllTiers) {
       out << "  tier " << ToString(tier) << ": " << At(sum.tiers, tier) << '\n';
     }

@@ -23,9 +23,11 @@ VerifyTotals Total(const VerifyOptions& options, const std::vector<SuiteStats>& 
 Json VerifyJson(const VerifyOptions& options, const std::vector<SuiteStats>& stats);
 
 // One row a suite, then what was found, then the closing line.
-void PrintVerify(std::ostream& out, const VerifyOptions& options, const std::vector<SuiteStats>& stats);
+void PrintVerify(std::ostream& out, const VerifyOptions& options,
+                 const std::vector<SuiteStats>& stats);
 // Every combination that occurred, with its count.
-void PrintCoverage(std::ostream& out, const VerifyOptions& options, const std::vector<SuiteStats>& stats);
+void PrintCoverage(std::ostream& out, const VerifyOptions& options,
+                   const std::vector<SuiteStats>& stats);
 
 }  // namespace touchstone
 

@@ -28,12 +28,14 @@ constexpr int kMaxCases = 3;
 // Bodies up to this product of vertex counts have their phase maxima checked at every query; larger
 // ones at one query in 16, since that check takes O(mn).
 constexpr long kAlwaysMaxima = 2500;
-// Bodies up to this product are also judged in the construction tier, at one query in 16; M by exact hull
-// takes milliseconds.
+// Bodies up to this product are also judged in the construction tier, at one query in 16; M by
+// exact hull takes milliseconds.
 constexpr long kConstruct = 400;
 constexpr std::uint64_t kSample = 16;
 
-double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 template <class Map>
 void AddCounts(Map& into, const Map& from) {
@@ -49,9 +51,12 @@ struct Batch {
 class Scheduler {
  public:
   explicit Scheduler(const VerifyOptions& options)
-      : options_(options), next_(options.suites.size(), options.first), seconds_(options.suites.size(), 0.0) {
+      : options_(options),
+        next_(options.suites.size(), options.first),
+        seconds_(options.suites.size(), 0.0) {
     for (const Suite* suite : options.suites) {
-      stats_.push_back({std::string(suite->name()), std::vector<SearchStats>(options.searches.size())});
+      stats_.push_back(
+          {std::string(suite->name()), std::vector<SearchStats>(options.searches.size())});
     }
   }
 
@@ -60,7 +65,8 @@ class Scheduler {
     return options_.count > 0 ? TakeByCount() : TakeByTime();
   }
 
-  void Return(const Batch& batch, double seconds, double expected, const std::vector<SearchStats>& stats) {
+  void Return(const Batch& batch, double seconds, double expected,
+              const std::vector<SearchStats>& stats) {
     const std::lock_guard lock(mutex_);
     seconds_[batch.suite] += seconds - expected;
     for (std::size_t s = 0; s < stats.size(); ++s) {
@@ -75,9 +81,9 @@ class Scheduler {
   Progress GetProgress() {
     const std::lock_guard lock(mutex_);
     const double fraction =
-        options_.count > 0
-            ? static_cast<double>(done_) / (static_cast<double>(options_.count) * static_cast<double>(stats_.size()))
-            : SecondsSince(start_) / (60.0 * options_.minutes);
+        options_.count > 0 ? static_cast<double>(done_) / (static_cast<double>(options_.count) *
+                                                           static_cast<double>(stats_.size()))
+                           : SecondsSince(start_) / (60.0 * options_.minutes);
     return {std::min(1.0, fraction), queries_, findings_};
   }
 
@@ -110,7 +116,9 @@ class Scheduler {
     return TakeFrom(suite, next_[suite] + kBatch);
   }
 
-  Batch TakeFrom(std::size_t suite, std::uint64_t end) { return {suite, std::exchange(next_[suite], end), end}; }
+  Batch TakeFrom(std::size_t suite, std::uint64_t end) {
+    return {suite, std::exchange(next_[suite], end), end};
+  }
 
   const VerifyOptions& options_;
   std::mutex mutex_;
@@ -125,7 +133,8 @@ class Scheduler {
 
 class Worker {
  public:
-  Worker(const VerifyOptions& options, Scheduler& scheduler) : options_(options), scheduler_(scheduler) {}
+  Worker(const VerifyOptions& options, Scheduler& scheduler)
+      : options_(options), scheduler_(scheduler) {}
 
   void Run() {
     const double charge = options_.count > 0 ? 0.0 : Scheduler::kCharge;
@@ -142,30 +151,47 @@ class Worker {
  private:
   void RunPair(const Suite& suite, std::uint64_t index, std::vector<SearchStats>& stats) {
     const PlacedPair pair = suite.Generate(options_.seed, index);
-    for (std::size_t s = 0; s < stats.size(); ++s) RunQuery(suite, index, pair, options_.searches[s], stats[s]);
+    for (std::size_t s = 0; s < stats.size(); ++s)
+      RunQuery(suite, index, pair, options_.searches[s], stats[s]);
   }
 
   bool AsksEarlyExit(Search search, std::uint64_t index) const {
     switch (options_.early_exit) {
-      case EarlyExit::kNever: return false;
-      case EarlyExit::kAlways: return true;
+      case EarlyExit::kNever:
+        return false;
+      case EarlyExit::kAlways:
+        return true;
       // The quarter moves along with the rounds of placements, which have 20 steps.
-      case EarlyExit::kMixed: return search != Search::kPublished && (index + index / 20) % 4 == 3;
+      case EarlyExit::kMixed:
+        return search != Search::kPublished && (index + index / 20) % 4 == 3;
     }
     return false;
   }
 
-  void RunQuery(const Suite& suite, std::uint64_t index, const PlacedPair& pair, Search search, SearchStats& stats) {
+  JudgeDepth DepthOf(std::uint64_t index, const PlacedPair& pair) const {
+    switch (options_.depth) {
+      case Depth::kProof:
+        return {.phase_maxima = false, .construct = false, .twin = false};
+      case Depth::kFull:
+        return {.phase_maxima = true, .construct = true, .twin = true};
+      case Depth::kMixed:
+        break;
+    }
+    const long product = static_cast<long>(pair.p.vertex_count()) * pair.q.vertex_count();
+    // Moves along with the rounds of placements as well.
+    const std::uint64_t draw = (index + index / 20) % kSample;
+    return {.phase_maxima = product <= kAlwaysMaxima || draw == 0,
+            .construct = product <= kConstruct && draw == 1,
+            .twin = product <= kAlwaysMaxima || draw == 2};
+  }
+
+  void RunQuery(const Suite& suite, std::uint64_t index, const PlacedPair& pair, Search search,
+                SearchStats& stats) {
     const CollideOptions options{.search = search,
                                  .certainty = options_.certainty,
                                  .early_exit = AsksEarlyExit(search, index),
                                  .trace = false};
-    const long product = static_cast<long>(pair.p.vertex_count()) * pair.q.vertex_count();
-    // Moves along with the rounds of placements as well.
-    const std::uint64_t draw = (index + index / 20) % kSample;
-    const JudgeDepth depth{.phase_maxima = product <= kAlwaysMaxima || draw == 0,
-                           .construct = product <= kConstruct && draw == 1,
-                           .twin = product <= kAlwaysMaxima || draw == 2};
+    const JudgeDepth depth = DepthOf(index, pair);
     JudgedQuery query;
     try {
       query = AskAndJudge(pair, options, depth, bodies_);
@@ -173,7 +199,8 @@ class Worker {
       query.findings.push_back({"exception", error.what()});
     }
     Count(pair, options, depth, query, stats);
-    for (const NamedFinding& finding : query.findings) WriteCaseFile(suite, index, pair, options, finding);
+    for (const NamedFinding& finding : query.findings)
+      WriteCaseFile(suite, index, pair, options, finding);
   }
 
   static void Count(const PlacedPair& pair, const CollideOptions& options, const JudgeDepth& depth,
@@ -190,22 +217,26 @@ class Worker {
     stats.search_ns.Add(query.search_ns);
     stats.judge_seconds += query.judge_ns * 1e-9;
     for (const NamedFinding& finding : query.findings) ++stats.findings[finding.kind];
-    for (const NamedFinding& finding : query.rounding_findings) ++stats.rounding_findings[finding.kind];
+    for (const NamedFinding& finding : query.rounding_findings)
+      ++stats.rounding_findings[finding.kind];
     stats.failed_queries += !query.findings.empty();
-    const std::string face_class = result.face ? std::string(ToString(result.face->face_class)) : "none";
+    const std::string face_class =
+        result.face ? std::string(ToString(result.face->face_class)) : "none";
     ++stats.coverage[{options.search, face_class, result.phase, result.verdict}];
   }
 
-  void WriteCaseFile(const Suite& suite, std::uint64_t index, const PlacedPair& pair, const CollideOptions& options,
-                     const NamedFinding& finding) {
+  void WriteCaseFile(const Suite& suite, std::uint64_t index, const PlacedPair& pair,
+                     const CollideOptions& options, const NamedFinding& finding) {
     if (options_.cases_dir.empty()) return;
-    const std::string kind = std::string(suite.name()) + "-" + std::string(ToString(options.search)) + "-" + finding.kind;
+    const std::string kind = std::string(suite.name()) + "-" +
+                             std::string(ToString(options.search)) + "-" + finding.kind;
     if (!scheduler_.WantsCase(kind)) return;
-    const auto path = std::filesystem::path(options_.cases_dir) /
-                      (kind + "-" + std::to_string(options_.seed) + "-" + std::to_string(index) + ".case");
+    const auto path =
+        std::filesystem::path(options_.cases_dir) /
+        (kind + "-" + std::to_string(options_.seed) + "-" + std::to_string(index) + ".case");
     std::ofstream out(path);
-    WriteCase(out, {std::string(suite.name()), options_.seed, index, options.search, options.certainty,
-                    options.early_exit, finding.kind, finding.detail, pair});
+    WriteCase(out, {std::string(suite.name()), options_.seed, index, options.search,
+                    options.certainty, options.early_exit, finding.kind, finding.detail, pair});
   }
 
   const VerifyOptions& options_;
@@ -217,7 +248,8 @@ class Worker {
 
 void DurationHistogram::Add(double nanoseconds) {
   const auto value = static_cast<std::uint64_t>(std::max(0.0, nanoseconds));
-  const int octave = std::max(0, static_cast<int>(std::bit_width(value)) - 7);  // value >> octave is below 128
+  const int octave =
+      std::max(0, static_cast<int>(std::bit_width(value)) - 7);  // value >> octave is below 128
   const std::size_t bin = static_cast<std::size_t>(octave) * 64 + (value >> octave);
   ++bins_[std::min(bin, bins_.size() - 1)];
   ++total_;
@@ -263,7 +295,8 @@ std::uint64_t SearchStats::FindingCount() const {
   return count;
 }
 
-std::vector<SuiteStats> RunVerify(const VerifyOptions& options, const std::function<void(const Progress&)>& report) {
+std::vector<SuiteStats> RunVerify(const VerifyOptions& options,
+                                  const std::function<void(const Progress&)>& report) {
   Scheduler scheduler(options);
   std::mutex mutex;
   std::condition_variable ended;

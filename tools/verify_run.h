@@ -17,8 +17,8 @@
 
 namespace touchstone {
 
-// Durations by count: every nanosecond up to 64, then 64 bins an octave, so that a quantile is right to
-// 1.6 % whatever the number of samples.
+// Durations by count: every nanosecond up to 64, then 64 bins an octave, so that a quantile is
+// right to 1.6 % whatever the number of samples.
 class DurationHistogram {
  public:
   void Add(double nanoseconds);
@@ -39,12 +39,12 @@ struct SearchStats {
   std::array<std::uint64_t, 4> verdicts{};  // by Verdict
   std::array<std::uint64_t, 4> tiers{};     // by Tier
   std::map<std::string, std::uint64_t> findings, rounding_findings;
-  std::uint64_t failed_queries = 0;     // with at least one finding
-  std::uint64_t n_at_least_100 = 0;     // the larger body has 100 vertices or more
+  std::uint64_t failed_queries = 0;  // with at least one finding
+  std::uint64_t n_at_least_100 = 0;  // the larger body has 100 vertices or more
   std::uint64_t early_exits_asked = 0;
   std::uint64_t phase_maxima_checked = 0;
-  std::uint64_t constructed = 0;        // judged in the construction tier, too
-  std::uint64_t twin_runs = 0;          // replays of the published pseudocode
+  std::uint64_t constructed = 0;  // judged in the construction tier, too
+  std::uint64_t twin_runs = 0;    // replays of the published pseudocode
   DurationHistogram search_ns;
   double judge_seconds = 0.0;
   std::map<CoverageKey, std::uint64_t> coverage;
@@ -54,6 +54,15 @@ struct SearchStats {
 };
 
 enum class EarlyExit { kNever, kAlways, kMixed };
+
+// How far the judge looks at each query.
+enum class Depth {
+  kProof,  // certificates and values in O(m + n); the published pseudocode only where a query
+           // failed
+  kMixed,  // also phase maxima, construction and pseudocode: always for small bodies, else on a
+           // sample
+  kFull,   // everything at every query
+};
 
 struct VerifyOptions {
   std::vector<const Suite*> suites;
@@ -65,8 +74,10 @@ struct VerifyOptions {
   double minutes = 0.0;
   int threads = 1;
   Certainty certainty = Certainty::kExact;
-  // Mixed: every fourth query of the proven searches asks for an early exit; the published never does.
+  // Mixed: every fourth query of the proven searches asks for an early exit; the published never
+  // does.
   EarlyExit early_exit = EarlyExit::kMixed;
+  Depth depth = Depth::kMixed;
   std::string cases_dir;  // where failing queries are written; empty: nowhere
 };
 
@@ -80,9 +91,11 @@ struct Progress {
   std::uint64_t queries, findings;
 };
 
-// Runs the suites through the searches and the judge. With a count, all totals but the times depend on
-// suites, seed and count alone, not on threads. `report`, when given, is called a few times a second.
-std::vector<SuiteStats> RunVerify(const VerifyOptions& options, const std::function<void(const Progress&)>& report);
+// Runs the suites through the searches and the judge. With a count, all totals but the times depend
+// on suites, seed and count alone, not on threads. `report`, when given, is called a few times a
+// second.
+std::vector<SuiteStats> RunVerify(const VerifyOptions& options,
+                                  const std::function<void(const Progress&)>& report);
 
 }  // namespace touchstone
 

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <regex>
+#include <optional>
 #include <set>
+#include <string_view>
 
 namespace touchstone {
 namespace {
@@ -15,10 +16,11 @@ using Names = std::set<std::string>;
 
 // What each half may include.
 const std::map<std::string, Names>& AllowedHalves() {
-  static const std::map<std::string, Names> kAllowed = {{"core", {"core"}},
-                                                        {"exact", {"core", "exact"}},
-                                                        {"tools", {"core", "exact", "tools"}},
-                                                        {"tests", {"core", "exact", "tools", "tests"}}};
+  static const std::map<std::string, Names> kAllowed = {
+      {"core", {"core"}},
+      {"exact", {"core", "exact"}},
+      {"tools", {"core", "exact", "tools"}},
+      {"tests", {"core", "exact", "tools", "tests"}}};
   return kAllowed;
 }
 
@@ -49,42 +51,66 @@ std::vector<std::string> Parts(const std::string& path) {
   return parts;
 }
 
-// What is wrong with the file at `from` (relative to the root) including `header`; empty when nothing is.
+// What is wrong with the file at `from` (relative to the root) including `header`; empty when
+// nothing is.
 std::string Check(const std::string& from, const std::string& header, bool quoted) {
   const std::vector<std::string> source = Parts(from);
   const std::string& half = source.front();
   const std::string prefix = "touchstone/";
   if (!header.starts_with(prefix)) {
     if (quoted) return "own headers are included as \"touchstone/...\"";
-    const bool oracle = header.starts_with("CGAL/") || header.starts_with("gmp") || header.starts_with("mpfr");
+    const bool oracle =
+        header.starts_with("CGAL/") || header.starts_with("gmp") || header.starts_with("mpfr");
     return half == "core" && oracle ? "core includes no oracle code" : "";
   }
   const std::string path = header.substr(prefix.size());
   const std::vector<std::string> target = Parts(path);
-  if (!AllowedHalves().at(half).contains(target.front())) return half + " may not include " + target.front();
+  if (!AllowedHalves().at(half).contains(target.front()))
+    return half + " may not include " + target.front();
   if (half == "core" && source.size() > 2 && target.size() > 2) {
     const auto allowed = AllowedFolders().find(source[1]);
-    if (allowed == AllowedFolders().end()) return "core/" + source[1] + " has no place among the layers";
-    if (!allowed->second.contains(target[1])) return "core/" + source[1] + " may not include core/" + target[1];
+    if (allowed == AllowedFolders().end())
+      return "core/" + source[1] + " has no place among the layers";
+    if (!allowed->second.contains(target[1]))
+      return "core/" + source[1] + " may not include core/" + target[1];
   }
   if (half == "exact" && target.front() == "core" && !CoreHeadersForExact().contains(path)) {
     return "the judge may not read " + path;
   }
-  if (half != "tests" && path.ends_with("_internal.h") && fs::path(from).parent_path() != fs::path(path).parent_path()) {
+  if (half != "tests" && path.ends_with("_internal.h") &&
+      fs::path(from).parent_path() != fs::path(path).parent_path()) {
     return path + " is private to its folder";
   }
   return "";
 }
 
+// What an include line names, and whether in quotes.
+struct Include {
+  std::string header;
+  bool quoted;
+};
+
+std::optional<Include> ParseInclude(std::string_view line) {
+  const auto skip = [&](std::string_view token) {
+    line.remove_prefix(std::min(line.size(), line.find_first_not_of(" \t")));
+    const bool found = line.starts_with(token);
+    if (found) line.remove_prefix(token.size());
+    return found;
+  };
+  if (!skip("#") || !skip("include")) return std::nullopt;
+  const bool quoted = skip("\"");
+  if (!quoted && !skip("<")) return std::nullopt;
+  return Include{std::string(line.substr(0, line.find(quoted ? '"' : '>'))), quoted};
+}
+
 void CheckFile(const fs::path& root, const fs::path& file, std::vector<std::string>& violations) {
-  static const std::regex kInclude(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
   const std::string from = fs::relative(file, root).generic_string();
   std::ifstream in(file);
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    std::smatch match;
-    if (!std::regex_match(line, match, kInclude)) continue;
-    const std::string wrong = Check(from, match[2], match[1] == "\"");
+    const std::optional<Include> include = ParseInclude(line);
+    if (!include) continue;
+    const std::string wrong = Check(from, include->header, include->quoted);
     if (!wrong.empty()) violations.push_back(from + ":" + std::to_string(number) + ": " + wrong);
   }
 }

@@ -8,8 +8,8 @@
 
 namespace touchstone {
 
-// Every include line under `root` (the folder that holds core/, exact/, tools/, tests/) that breaks the
-// layers, as "file:line: what is wrong", in order:
+// Every include line under `root` (the folder that holds core/, exact/, tools/, tests/) that breaks
+// the layers, as "file:line: what is wrong", in order:
 //
 //   tools, tests -> exact -> core
 //   in core: scene -> cpd -> minkowski -> mesh -> base, scene -> cd_dual -> convex -> base, and

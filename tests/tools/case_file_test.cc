@@ -43,7 +43,8 @@ constexpr std::string_view kCase =
 class CaseFiles : public testing::Test {
  protected:
   // kCase with one piece replaced must be refused with `text` after the file's name.
-  void ExpectRefused(std::string_view piece, std::string_view replacement, const std::string& text) {
+  void ExpectRefused(std::string_view piece, std::string_view replacement,
+                     const std::string& text) {
     std::string content(kCase);
     content.replace(content.find(piece), piece.size(), replacement);
     const Loaded<CaseFile> loaded = ReadCase(folder.Write("bad.case", content));
@@ -63,8 +64,15 @@ std::string Written(const CaseFile& query) {
 TEST_F(CaseFiles, WhatIsWrittenReadsBackBitForBit) {
   for (const std::unique_ptr<Suite>& suite : MakeSuites("")) {
     if (!suite->unavailable().empty()) continue;
-    const CaseFile query{std::string(suite->name()), 5,     37, Search::kPublished, Certainty::kFloat, true,
-                         "wrong_verdict", "one line", suite->Generate(5, 37)};
+    const CaseFile query{std::string(suite->name()),
+                         5,
+                         37,
+                         Search::kPublished,
+                         Certainty::kFloat,
+                         true,
+                         "wrong_verdict",
+                         "one line",
+                         suite->Generate(5, 37)};
     const std::string text = Written(query);
     const Loaded<CaseFile> loaded = ReadCase(folder.Write("a.case", text));
     ASSERT_TRUE(loaded.ok()) << loaded.error();

@@ -25,15 +25,17 @@ ProgramRun RunProgram(const std::string& arguments) {
   const TemporaryFolder folder("run");
   const std::string out = folder.path("out");
   const std::string err = folder.path("err");
-  const std::string command = std::string(TOUCHSTONE_PROGRAM) + " " + arguments + " >" + out + " 2>" + err;
+  const std::string command =
+      std::string(TOUCHSTONE_PROGRAM) + " " + arguments + " >" + out + " 2>" + err;
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), ReadFile(out), ReadFile(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), ReadFile(out),
+          ReadFile(err)};
 }
 
 TemporaryFolder::TemporaryFolder(std::string_view name) {
   static int counter = 0;
-  path_ = fs::temp_directory_path() /
-          ("touchstone_" + std::string(name) + "_" + std::to_string(getpid()) + "_" + std::to_string(counter++));
+  path_ = fs::temp_directory_path() / ("touchstone_" + std::string(name) + "_" +
+                                       std::to_string(getpid()) + "_" + std::to_string(counter++));
   fs::create_directories(path_);
 }
 

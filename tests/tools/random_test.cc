@@ -20,8 +20,9 @@ TEST(Random, StreamsAreFixed) {
   const std::uint64_t first = random.Bits();
   Random again("test", 1, 2);
   EXPECT_EQ(again.Bits(), first);
-  std::set<std::uint64_t> distinct = {first, Random("test", 1, 3).Bits(), Random("test", 2, 2).Bits(),
-                                      Random("tesu", 1, 2).Bits(), Random("test", 2, 1).Bits()};
+  std::set<std::uint64_t> distinct = {first, Random("test", 1, 3).Bits(),
+                                      Random("test", 2, 2).Bits(), Random("tesu", 1, 2).Bits(),
+                                      Random("test", 2, 1).Bits()};
   EXPECT_EQ(distinct.size(), 5u);
 }
 
@@ -71,7 +72,8 @@ TEST(Numbers, AreReadWholeOrNotAtAll) {
   EXPECT_EQ(ParseDouble("-0x1.8p-3"), -0.1875);
   EXPECT_EQ(ParseDouble("+2e3"), 2000.0);
   EXPECT_TRUE(std::isnan(*ParseDouble("nan")));
-  for (const char* word : {"", "-", "1,5", "1.5x", "0x", "--1", "+-1", "1e999", " 1"}) EXPECT_FALSE(ParseDouble(word)) << word;
+  for (const char* word : {"", "-", "1,5", "1.5x", "0x", "--1", "+-1", "1e999", " 1"})
+    EXPECT_FALSE(ParseDouble(word)) << word;
 }
 
 TEST(Numbers, HexadecimalKeepsEveryBit) {

@@ -64,18 +64,12 @@ class Hash {
 // A changed value here means that old seeds no longer name the same queries: say so in the commit.
 TEST(Suites, GiveTheSameDoublesOnEveryMachine) {
   const std::map<std::string, std::uint64_t> expected = {
-      {"ellipsoid-1", 0x84c034b805c28702u},
-      {"ellipsoid-2", 0x41647afbb720343eu},
-      {"ellipsoid-4", 0x3f6292ca0e3d36dcu},
-      {"ellipsoid-10", 0x6be699c2eaaa818du},
-      {"large", 0x397dfc14ec9ab9a3u},
-      {"grid", 0x797f4671c833c596u},
-      {"boxes-face", 0x794854043b2c4f92u},
-      {"boxes-edge", 0xe587df327051a86bu},
-      {"boxes-vertex", 0x8d470ad1dbc6932eu},
-      {"prisms", 0x6ffba1a524cb9a7bu},
-      {"ties", 0xb85b77919113399bu},
-      {"tetrahedra", 0x842554d79ac938beu},
+      {"ellipsoid-1", 0x84c034b805c28702u},  {"ellipsoid-2", 0x41647afbb720343eu},
+      {"ellipsoid-4", 0x3f6292ca0e3d36dcu},  {"ellipsoid-10", 0x6be699c2eaaa818du},
+      {"large", 0x397dfc14ec9ab9a3u},        {"grid", 0x797f4671c833c596u},
+      {"boxes-face", 0x794854043b2c4f92u},   {"boxes-edge", 0xe587df327051a86bu},
+      {"boxes-vertex", 0x8d470ad1dbc6932eu}, {"prisms", 0x6ffba1a524cb9a7bu},
+      {"ties", 0xb85b77919113399bu},         {"tetrahedra", 0x842554d79ac938beu},
       {"reported", 0x91fbb23387a0b8d7u},
   };
   for (const std::unique_ptr<Suite>& suite : AvailableSuites()) {
@@ -129,11 +123,13 @@ TEST(Suites, AreValidAndMixed) {
     at_least(Verdict::kSeparate, 0.1);
     at_least(Verdict::kOverlap, 0.1);
     // General placements touch by luck only.
-    const bool touches = suite->name() == "grid" || suite->name() == "prisms" || suite->name() == "ties" ||
-                         suite->name() == "tetrahedra" || suite->name().starts_with("boxes");
+    const bool touches = suite->name() == "grid" || suite->name() == "prisms" ||
+                         suite->name() == "ties" || suite->name() == "tetrahedra" ||
+                         suite->name().starts_with("boxes");
     if (touches) at_least(Verdict::kTouch, 0.1);
-    RecordProperty(std::string(suite->name()), std::to_string(verdicts[0]) + " separate, " + std::to_string(verdicts[1]) +
-                                                   " touch, " + std::to_string(verdicts[2]) + " overlap");
+    RecordProperty(std::string(suite->name()), std::to_string(verdicts[0]) + " separate, " +
+                                                   std::to_string(verdicts[1]) + " touch, " +
+                                                   std::to_string(verdicts[2]) + " overlap");
   }
 }
 
@@ -143,7 +139,8 @@ TEST(Suites, MeshesTakesClosedMeshesOnly) {
   folder.Write("broken.off", "OFF\n4 4 0\n0 0\n");
   folder.Write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n");
   EXPECT_NE(MakeMeshesSuite(folder.path(""))->unavailable(), "");
-  folder.Write("closed.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+  folder.Write("closed.off",
+               "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
   const std::unique_ptr<Suite> suite = MakeMeshesSuite(folder.path(""));
   ASSERT_EQ(suite->unavailable(), "");
   EXPECT_EQ(suite->Generate(kSeed, 5).p.vertex_count(), 4);

@@ -25,15 +25,17 @@ TEST(VerifyCommand, JsonHasTheKeysOfEverySuiteAndSearch) {
   ASSERT_EQ(json["results"].size(), 3u);
   std::set<std::string> searches;
   for (const nlohmann::json& row : json["results"]) {
-    for (const std::string key : {"suite", "search", "seed", "queries", "separate", "touch", "overlap", "undecided",
-                                  "findings", "exact_fallbacks", "median_ns", "judged_per_second"}) {
+    for (const std::string key :
+         {"suite", "search", "seed", "queries", "separate", "touch", "overlap", "undecided",
+          "findings", "exact_fallbacks", "median_ns", "judged_per_second"}) {
       EXPECT_TRUE(row.contains(key)) << key;
     }
     searches.insert(row["search"].get<std::string>());
     EXPECT_EQ(row["suite"], "tetrahedra");
     EXPECT_EQ(row["seed"], 3);
     EXPECT_EQ(row["queries"], 160);
-    EXPECT_EQ(row["separate"].get<int>() + row["touch"].get<int>() + row["overlap"].get<int>(), 160);
+    EXPECT_EQ(row["separate"].get<int>() + row["touch"].get<int>() + row["overlap"].get<int>(),
+              160);
     EXPECT_EQ(row["undecided"], 0);
     EXPECT_TRUE(row["findings"].is_object());
     EXPECT_GT(row["median_ns"].get<double>(), 0.0);
@@ -50,7 +52,8 @@ TEST(VerifyCommand, JsonHasTheKeysOfEverySuiteAndSearch) {
 // Totals must not depend on how work was spread, or a campaign could not be repeated.
 TEST(VerifyCommand, ThreadsDoNotChangeTheTotals) {
   const auto totals = [](const std::string& threads) {
-    nlohmann::json json = RunProgram("verify --suite boxes-edge --count 300 --json --threads " + threads).json();
+    nlohmann::json json =
+        RunProgram("verify --suite boxes-edge --count 300 --json --threads " + threads).json();
     for (nlohmann::json& row : json["results"]) {
       row.erase("median_ns");
       row.erase("judged_per_second");
@@ -64,20 +67,24 @@ TEST(VerifyCommand, TextEndsWithTheClosingLine) {
   const ProgramRun run = RunProgram("verify --suite reported --count 27 --coverage");
   EXPECT_EQ(run.exit_code, 0) << run.out;
   EXPECT_THAT(run.out, AllOf(HasSubstr("reported"), HasSubstr("exact touches"),
-                             ContainsRegex("judged 81 queries: 0 findings in the proven searches, [0-9]+ in the published one\n$")));
+                             ContainsRegex("judged 81 queries: 0 findings in the proven searches, "
+                                           "[0-9]+ in the published one\n$")));
 }
 
 TEST(VerifyCommand, MinutesBoundTheTime) {
-  const ProgramRun run = RunProgram("verify --minutes 0.02 --suite boxes-face --search portal --json");
+  const ProgramRun run =
+      RunProgram("verify --minutes 0.02 --suite boxes-face --search portal --json");
   EXPECT_EQ(run.exit_code, 0) << run.out;
   EXPECT_GT(run.json()["total"]["queries"].get<int>(), 0);
 }
 
 TEST(VerifyCommand, FailuresOfThePublishedSearchBecomeCasesThatReplay) {
   const TemporaryFolder folder("cases");
-  // The family whose ties alone defeat the paper's arc test (and whose elongation defeats theorem 1).
+  // The family whose ties alone defeat the paper's arc test (and whose elongation defeats theorem
+  // 1).
   const ProgramRun run =
-      RunProgram("verify --suite ellipsoid-10 --search published --count 400 --json --cases " + folder.path("cases"));
+      RunProgram("verify --suite ellipsoid-10 --search published --count 400 --json --cases " +
+                 folder.path("cases"));
   EXPECT_EQ(run.exit_code, 0);  // counted, not an error
   ASSERT_GT(run.json()["total"]["published_findings"].get<int>(), 0);
   int replayed = 0;
@@ -111,6 +118,7 @@ TEST(VerifyCommand, BadUsageIsOneLineAndCodeTwo) {
   refused("verify --count many", "count");
   refused("verify --minutes -1", "minutes");
   refused("verify --early-exit often", "'often' is none of");
+  refused("verify --depth shallow", "'shallow' is none of");
   refused("replay /nonexistent.case", "cannot be opened");
 }
 
@@ -125,9 +133,10 @@ TEST(SuitesCommand, ListsEverySuite) {
     EXPECT_FALSE(suite["summary"].get<std::string>().empty());
     EXPECT_FALSE(suite["attacks"].get<std::string>().empty());
   }
-  EXPECT_EQ(names, (std::set<std::string>{"ellipsoid-1", "ellipsoid-2", "ellipsoid-4", "ellipsoid-10", "large", "grid",
-                                          "boxes-face", "boxes-edge", "boxes-vertex", "prisms", "ties", "tetrahedra",
-                                          "reported", "meshes"}));
+  EXPECT_EQ(names, (std::set<std::string>{"ellipsoid-1", "ellipsoid-2", "ellipsoid-4",
+                                          "ellipsoid-10", "ellipsoid-n20", "large", "grid",
+                                          "boxes-face", "boxes-edge", "boxes-vertex", "prisms",
+                                          "ties", "tetrahedra", "reported", "meshes"}));
 }
 
 }  // namespace

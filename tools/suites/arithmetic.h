@@ -57,9 +57,11 @@ inline int LongestAxis(const Eigen::Vector3d& v) {
 // The neighbouring double above (or below) `x`; for |x| below `size`, a step of the ulp of `size`,
 // so that a step from zero is a step that the bodies can feel, not a denormal.
 inline double StepUlp(double x, bool up, double size) {
-  const double ulp = std::nextafter(std::fabs(size), std::numeric_limits<double>::max()) - std::fabs(size);
+  const double ulp =
+      std::nextafter(std::fabs(size), std::numeric_limits<double>::max()) - std::fabs(size);
   if (std::fabs(x) < size * 0x1p-20) return up ? x + ulp : x - ulp;
-  return std::nextafter(x, up ? std::numeric_limits<double>::max() : std::numeric_limits<double>::lowest());
+  return std::nextafter(
+      x, up ? std::numeric_limits<double>::max() : std::numeric_limits<double>::lowest());
 }
 
 }  // namespace touchstone

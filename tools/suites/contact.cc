@@ -25,7 +25,8 @@ Eigen::Vector3d RandomFaceNormal(Random& random, const ConvexPolyhedron& body) {
   const auto loop = body.face(random.Integer(0, body.face_count() - 1));
   const Eigen::Vector3d& a = body.vertex(loop[0]);
   for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
-    const Eigen::Vector3d normal = PlainCross(body.vertex(loop[k]) - a, body.vertex(loop[k + 1]) - a);
+    const Eigen::Vector3d normal =
+        PlainCross(body.vertex(loop[k]) - a, body.vertex(loop[k + 1]) - a);
     if (!IsZero(normal)) return normal;
   }
   return Eigen::Vector3d::UnitX();
@@ -40,20 +41,26 @@ Eigen::Vector3d RandomEdge(Random& random, const ConvexPolyhedron& body) {
 Eigen::Vector3d DrawDirection(Random& random, const ConvexPolyhedron& p, const ConvexPolyhedron& q,
                               const Eigen::Matrix3d& rotation) {
   const auto normal_p = [&] { return RandomFaceNormal(random, p); };
-  const auto normal_q = [&] { return Eigen::Vector3d(-PlainRotate(rotation, RandomFaceNormal(random, q))); };
+  const auto normal_q = [&] {
+    return Eigen::Vector3d(-PlainRotate(rotation, RandomFaceNormal(random, q)));
+  };
   switch (random.Integer(0, 5)) {
-    case 0: return normal_p();
-    case 1: return normal_q();
+    case 0:
+      return normal_p();
+    case 1:
+      return normal_q();
     case 2: {
       const Eigen::Vector3d edge_p = RandomEdge(random, p);
-      const Eigen::Vector3d cross = PlainCross(edge_p, PlainRotate(rotation, RandomEdge(random, q)));
+      const Eigen::Vector3d cross =
+          PlainCross(edge_p, PlainRotate(rotation, RandomEdge(random, q)));
       return random.OneIn(2) ? cross : Eigen::Vector3d(-cross);
     }
     case 3: {
       const Eigen::Vector3d first = normal_p();
       return first + normal_p();
     }
-    case 4: return p.vertex(random.Integer(0, p.vertex_count() - 1));
+    case 4:
+      return p.vertex(random.Integer(0, p.vertex_count() - 1));
     default: {
       Eigen::Vector3d direction;
       for (int i = 0; i < 3; ++i) direction[i] = random.Integer(-4, 4);
@@ -63,7 +70,8 @@ Eigen::Vector3d DrawDirection(Random& random, const ConvexPolyhedron& p, const C
 }
 
 // A mixture of up to three vertices of the feature with weights in sixteenths: exact.
-Eigen::Vector3d RandomPoint(Random& random, const ConvexPolyhedron& body, const ExtremeFeature& feature) {
+Eigen::Vector3d RandomPoint(Random& random, const ConvexPolyhedron& body,
+                            const ExtremeFeature& feature) {
   const std::span<const int> vertices(feature.vertices);
   const int first = random.Integer(0, 16);
   const int second = random.Integer(0, 16 - first);
@@ -79,17 +87,18 @@ Eigen::Vector3d RandomPoint(Random& random, const ConvexPolyhedron& body, const 
 // Offsets 0 to 9 are the touch itself, 10 is one ulp apart and 11 one ulp in; then travels apart
 // (positive) or in, relative to the size.
 double TravelOfOffset(int offset) {
-  static constexpr std::array<double, kContactOffsetCount - 12> kTravels = {1e-12, -1e-12, 1e-9, -1e-9,
-                                                                            1e-2,  -1e-2,  2.0,  -0.5};
+  static constexpr std::array<double, kContactOffsetCount - 12> kTravels = {
+      1e-12, -1e-12, 1e-9, -1e-9, 1e-2, -1e-2, 2.0, -0.5};
   return kTravels[offset - 12];
 }
 
 bool IsApart(int offset) { return offset == 10 || (offset >= 12 && TravelOfOffset(offset) > 0.0); }
 
-// Moves a touching translation towards the middle of M, which is inside whatever feature o touches: by
-// `travel` along the axis where that is longest and in proportion along the others, or, when zero, by one
-// ulp along each.
-void MoveIn(Eigen::Vector3d& translation, const Eigen::Vector3d& middle, double travel, double size) {
+// Moves a touching translation towards the middle of M, which is inside whatever feature o touches:
+// by `travel` along the axis where that is longest and in proportion along the others, or, when
+// zero, by one ulp along each.
+void MoveIn(Eigen::Vector3d& translation, const Eigen::Vector3d& middle, double travel,
+            double size) {
   const Eigen::Vector3d out = translation - middle;
   const double longest = std::fabs(out[LongestAxis(out)]);
   for (int i = 0; i < 3; ++i) {
@@ -136,7 +145,8 @@ ContactFeatures DrawContact(Random& random, const ConvexPolyhedron& p, const Con
 }
 
 PlacedPair PlaceAtContact(Random& random, const ConvexPolyhedron& p, const ConvexPolyhedron& q,
-                          const Eigen::Matrix3d& rotation, const ContactFeatures& contact, int offset) {
+                          const Eigen::Matrix3d& rotation, const ContactFeatures& contact,
+                          int offset) {
   const Eigen::Vector3d a = RandomPoint(random, p, contact.p);
   const Eigen::Vector3d touching = a - PlainRotate(rotation, RandomPoint(random, q, contact.q));
   const double size = std::fmax(PlainMaxCoordinate(p.vertices()), PlainMaxCoordinate(q.vertices()));
@@ -149,7 +159,8 @@ PlacedPair PlaceAtContact(Random& random, const ConvexPolyhedron& p, const Conve
   } else if (IsApart(offset)) {
     translation[axis] += sense * (TravelOfOffset(offset) * size);
   } else if (offset >= 11) {
-    const Eigen::Vector3d middle = PlainMean(p.vertices()) - PlainRotate(rotation, PlainMean(q.vertices()));
+    const Eigen::Vector3d middle =
+        PlainMean(p.vertices()) - PlainRotate(rotation, PlainMean(q.vertices()));
     MoveIn(translation, middle, offset == 11 ? 0.0 : -TravelOfOffset(offset) * size, size);
   }
   const bool moved = translation != touching;

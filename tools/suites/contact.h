@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Contacts that are exact: bodies with small integer coordinates, rotated by axis rotations, have
-// exact images, exact normals and exact dot products in doubles. A point a of P and a point b of R Q,
-// both extreme along the same direction, coincide when Q is moved by a - b, and the plane between
-// holds the interiors apart: a touch, with nothing rounded.
+// exact images, exact normals and exact dot products in doubles. A point a of P and a point b of R
+// Q, both extreme along the same direction, coincide when Q is moved by a - b, and the plane
+// between holds the interiors apart: a touch, with nothing rounded.
 #ifndef TOUCHSTONE_TOOLS_SUITES_CONTACT_H_
 #define TOUCHSTONE_TOOLS_SUITES_CONTACT_H_
 
@@ -44,11 +44,13 @@ ContactFeatures DrawContact(Random& random, const ConvexPolyhedron& p, const Con
 // otherwise one ulp, 1e-12, 1e-9 of the size on either side, visible gaps and depths, deep and far.
 inline constexpr int kContactOffsetCount = 20;
 
-// Q placed so that random points of the two features coincide (dyadic mixtures of their vertices), then
-// moved by offset number `offset`: apart along the axis where `contact.normal` is longest, in towards the
-// middle of M. The verdict is expected to be touch or separate where the construction makes it so.
+// Q placed so that random points of the two features coincide (dyadic mixtures of their vertices),
+// then moved by offset number `offset`: apart along the axis where `contact.normal` is longest, in
+// towards the middle of M. The verdict is expected to be touch or separate where the construction
+// makes it so.
 PlacedPair PlaceAtContact(Random& random, const ConvexPolyhedron& p, const ConvexPolyhedron& q,
-                          const Eigen::Matrix3d& rotation, const ContactFeatures& contact, int offset);
+                          const Eigen::Matrix3d& rotation, const ContactFeatures& contact,
+                          int offset);
 
 }  // namespace touchstone
 

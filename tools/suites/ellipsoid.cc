@@ -37,7 +37,8 @@ class EllipsoidSuite : public Suite {
     const Block& block = cache.Get(name_, seed, line / kOrientations,
                                    [&] { return MakeBlock(seed, line / kOrientations); });
     return {block.p, block.q,
-            PoseOfPlacement(block.lines[line % kOrientations], static_cast<int>(index % kPlacementCount))};
+            PoseOfPlacement(block.lines[line % kOrientations],
+                            static_cast<int>(index % kPlacementCount))};
   }
 
  private:
@@ -65,7 +66,8 @@ class EllipsoidSuite : public Suite {
 }  // namespace
 
 std::unique_ptr<Suite> MakeEllipsoidSuite(std::string_view name, std::string_view summary,
-                                          std::span<const double> aspects, std::span<const int> counts) {
+                                          std::span<const double> aspects,
+                                          std::span<const int> counts) {
   return std::make_unique<EllipsoidSuite>(name, summary, aspects, counts);
 }
 

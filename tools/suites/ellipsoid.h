@@ -9,10 +9,11 @@
 
 namespace touchstone {
 
-// Hulls of random points on ellipsoids 100 aspect : 100 : 100, the paper's bodies (section 5), one suite
-// an aspect. `aspects` and `counts` are drawn from; `name` and `summary` must be literals.
+// Hulls of random points on ellipsoids 100 aspect : 100 : 100, the paper's bodies (section 5), one
+// suite an aspect. `aspects` and `counts` are drawn from; `name` and `summary` must be literals.
 std::unique_ptr<Suite> MakeEllipsoidSuite(std::string_view name, std::string_view summary,
-                                          std::span<const double> aspects, std::span<const int> counts);
+                                          std::span<const double> aspects,
+                                          std::span<const int> counts);
 
 }  // namespace touchstone
 

@@ -32,7 +32,8 @@ PlacedPair LatticeContactSuite::Generate(std::uint64_t seed, std::uint64_t index
   });
   const Contact& contact = contact_cache.Get(name(), seed, number, [&] {
     Random random(name(), seed, 3 * number + 1);
-    const Eigen::Matrix3d rotation = random.OneIn(4) ? Eigen::Matrix3d::Identity() : random.AxisRotation();
+    const Eigen::Matrix3d rotation =
+        random.OneIn(4) ? Eigen::Matrix3d::Identity() : random.AxisRotation();
     return Contact{rotation, DrawContact(random, bodies.p, bodies.q, rotation,
                                          [this](int p, int q) { return Wants(p, q); })};
   });

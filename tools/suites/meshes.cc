@@ -55,10 +55,12 @@ class MeshesSuite : public Suite {
 
   std::string_view name() const override { return "meshes"; }
   std::string_view summary() const override {
-    return "hulls of the closed meshes in --meshes DIR, random rotations, deep to far and near contact";
+    return "hulls of the closed meshes in --meshes DIR, random rotations, deep to far and near "
+           "contact";
   }
   std::string_view attacks() const override {
-    return "real coordinates: uneven sampling, slivers, nearly coplanar facets, any scale and offset";
+    return "real coordinates: uneven sampling, slivers, nearly coplanar facets, any scale and "
+           "offset";
   }
   std::string unavailable() const override {
     if (directory_.empty()) return "no folder of meshes given (--meshes DIR)";
@@ -77,7 +79,8 @@ class MeshesSuite : public Suite {
       const Eigen::Matrix3d rotation = random.Rotation();
       return Block{p, q, FindContactLine(p, q, rotation, random.SpherePoint())};
     });
-    return {block.p, block.q, PoseOfPlacement(block.line, static_cast<int>(index % kPlacementCount))};
+    return {block.p, block.q,
+            PoseOfPlacement(block.line, static_cast<int>(index % kPlacementCount))};
   }
 
  private:

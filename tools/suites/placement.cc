@@ -54,7 +54,8 @@ class PortalSearch {
   void Enclose() {
     a_ = Support(direction_);
     Eigen::Vector3d normal = PlainCross(a_.point, direction_);
-    if (PlainDot(normal, normal) == 0.0) normal = PlainCross(a_.point, Eigen::Vector3d(direction_[1], direction_[2], direction_[0]));
+    if (PlainDot(normal, normal) == 0.0)
+      normal = PlainCross(a_.point, Eigen::Vector3d(direction_[1], direction_[2], direction_[0]));
     b_ = Support(normal);
     normal = PlainCross(a_.point, b_.point);
     if (PlainDot(normal, direction_) < 0.0) {
@@ -164,12 +165,17 @@ RelativePose PoseOfPlacement(const ContactLine& line, int placement) {
       -50.0, -5.0, -1.0, -1e-2, -1e-6, -1e-9, -1e-12, 1e-12,
       1e-9,  1e-6, 1e-2, 1.0,   5.0,   20.0,  50.0,   200.0};
   switch (placement) {
-    case 0: return PoseAtUlps(line, 0);
-    case 1: return PoseAtUlps(line, 1);
-    case 2: return PoseAtUlps(line, -1);
+    case 0:
+      return PoseAtUlps(line, 0);
+    case 1:
+      return PoseAtUlps(line, 1);
+    case 2:
+      return PoseAtUlps(line, -1);
     // Within the first thousandth of the line: c near o.
-    case kPlacementCount - 1: return PoseAtTravel(line, -line.exit * (1.0 - 0x1p-10));
-    default: return PoseAtTravel(line, kTravels[placement - 3] * (line.size / 100.0));
+    case kPlacementCount - 1:
+      return PoseAtTravel(line, -line.exit * (1.0 - 0x1p-10));
+    default:
+      return PoseAtTravel(line, kTravels[placement - 3] * (line.size / 100.0));
   }
 }
 

@@ -12,7 +12,8 @@ class PrismSuite : public LatticeContactSuite {
  public:
   std::string_view name() const override { return "prisms"; }
   std::string_view summary() const override {
-    return "prisms, antiprisms, bipyramids on 3 to 108 cocircular points in exact contact, flat to long";
+    return "prisms, antiprisms, bipyramids on 3 to 108 cocircular points in exact contact, flat to "
+           "long";
   }
   std::string_view attacks() const override {
     return "large polygons, vertices of high degree, parallel faces and edges at exact contact";
@@ -27,9 +28,12 @@ class PrismSuite : public LatticeContactSuite {
     const double height = random.Pick(kHeights);
     const FacetStyle style = random.OneIn(4) ? FacetStyle::kTriangulated : FacetStyle::kMerged;
     switch (random.Integer(0, 3)) {
-      case 0: return PrismBody(polygon, height, true, style);
-      case 1: return BipyramidBody(polygon, height, style);
-      default: return PrismBody(polygon, height, false, style);
+      case 0:
+        return PrismBody(polygon, height, true, style);
+      case 1:
+        return BipyramidBody(polygon, height, style);
+      default:
+        return PrismBody(polygon, height, false, style);
     }
   }
   bool Wants(int, int) const override { return true; }

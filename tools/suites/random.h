@@ -40,8 +40,8 @@ class Random {
 
   // Uniform on the unit sphere, by rejection in the cube; of unit length up to rounding.
   Eigen::Vector3d SpherePoint();
-  // Uniform over rotations: a quaternion by rejection in the 4-ball, its matrix by plain arithmetic;
-  // orthonormal up to rounding.
+  // Uniform over rotations: a quaternion by rejection in the 4-ball, its matrix by plain
+  // arithmetic; orthonormal up to rounding.
   Eigen::Matrix3d Rotation();
   // One of the 24 rotations that map the axes to axes: exact.
   Eigen::Matrix3d AxisRotation();

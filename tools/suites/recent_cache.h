@@ -16,11 +16,13 @@ namespace touchstone {
 template <class Value>
 class RecentCache {
  public:
-  // The value for the key, from `make()` when it is not among the last four. Valid until the next call.
+  // The value for the key, from `make()` when it is not among the last four. Valid until the next
+  // call.
   template <class Make>
   const Value& Get(std::string_view name, std::uint64_t seed, std::uint64_t block, Make make) {
     for (const std::optional<Entry>& entry : entries_) {
-      if (entry && entry->name == name && entry->seed == seed && entry->block == block) return entry->value;
+      if (entry && entry->name == name && entry->seed == seed && entry->block == block)
+        return entry->value;
     }
     std::optional<Entry>& slot = entries_[next_++ % entries_.size()];
     slot.emplace(Entry{std::string(name), seed, block, make()});

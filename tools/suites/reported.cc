@@ -33,7 +33,8 @@ ConvexPolyhedron Hull(std::span<const Eigen::Vector3d> points) {
 std::vector<Placed> BuildCases() {
   std::vector<Placed> cases;
   for (const ReportedCase& reported : ReportedCases()) {
-    cases.push_back({Hull(reported.p), Hull(reported.q), ToWorldPose(reported.p_pose), ToWorldPose(reported.q_pose)});
+    cases.push_back({Hull(reported.p), Hull(reported.q), ToWorldPose(reported.p_pose),
+                     ToWorldPose(reported.q_pose)});
   }
   return cases;
 }
@@ -42,14 +43,15 @@ class ReportedSuite : public Suite {
  public:
   std::string_view name() const override { return "reported"; }
   std::string_view summary() const override {
-    return "cases that users of other libraries reported, as reported, swapped, and moved by a few ulps";
+    return "cases that users of other libraries reported, as reported, swapped, and moved by a few "
+           "ulps";
   }
   std::string_view attacks() const override {
     return "what went wrong elsewhere: one ulp apart, parallel faces, slivers; poses in the world";
   }
 
-  // The cases as they are, then swapped, then with some coordinates of the translations moved by up to
-  // four ulps.
+  // The cases as they are, then swapped, then with some coordinates of the translations moved by up
+  // to four ulps.
   PlacedPair Generate(std::uint64_t seed, std::uint64_t index) const override {
     static const std::vector<Placed> kCases = BuildCases();
     const std::size_t number = index % kCases.size();
@@ -75,7 +77,8 @@ class ReportedSuite : public Suite {
   static void Nudge(Random& random, Eigen::Vector3d& translation) {
     for (int i = 0; i < 3; ++i) {
       const int steps = random.Integer(-4, 4);
-      for (int k = 0; k < std::abs(steps); ++k) translation[i] = StepUlp(translation[i], steps > 0, 0.25);
+      for (int k = 0; k < std::abs(steps); ++k)
+        translation[i] = StepUlp(translation[i], steps > 0, 0.25);
     }
   }
 };

@@ -15,10 +15,10 @@ namespace touchstone {
 // A placement that users of a collision library reported as answered wrong.
 struct ReportedCase {
   std::string_view name;
-  std::string_view source;  // where it was reported
-  std::string_view note;    // what went wrong there
-  Verdict verdict;          // of the exact bodies
-  std::vector<Eigen::Vector3d> p, q;            // the bodies are the hulls of these points
+  std::string_view source;                // where it was reported
+  std::string_view note;                  // what went wrong there
+  Verdict verdict;                        // of the exact bodies
+  std::vector<Eigen::Vector3d> p, q;      // the bodies are the hulls of these points
   std::array<double, 12> p_pose, q_pose;  // in the world: rows of [R | t]
 };
 

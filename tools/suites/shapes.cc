@@ -31,7 +31,9 @@ std::vector<Eigen::Vector2d> LatticeCircle(int radius) {
 
 // By angle from the positive x axis, counterclockwise.
 bool AngleLess(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const auto lower = [](const Eigen::Vector2d& v) { return v[1] < 0.0 || (v[1] == 0.0 && v[0] < 0.0); };
+  const auto lower = [](const Eigen::Vector2d& v) {
+    return v[1] < 0.0 || (v[1] == 0.0 && v[0] < 0.0);
+  };
   if (lower(a) != lower(b)) return lower(b);
   return a[0] * b[1] - a[1] * b[0] > 0.0;
 }
@@ -67,7 +69,8 @@ ConvexPolyhedron BoxBody(const Eigen::Vector3d& half_extents, FacetStyle style) 
   std::vector<Eigen::Vector3d> points;
   for (int corner = 0; corner < 8; ++corner) {
     Eigen::Vector3d point;
-    for (int i = 0; i < 3; ++i) point[i] = (corner >> i & 1) != 0 ? half_extents[i] : -half_extents[i];
+    for (int i = 0; i < 3; ++i)
+      point[i] = (corner >> i & 1) != 0 ? half_extents[i] : -half_extents[i];
     points.push_back(point);
   }
   return HullOfKnownGood(points, style);
@@ -98,7 +101,8 @@ ConvexPolyhedron PrismBody(std::span<const Eigen::Vector2d> polygon, double heig
   return HullOfKnownGood(points, style);
 }
 
-ConvexPolyhedron BipyramidBody(std::span<const Eigen::Vector2d> polygon, double height, FacetStyle style) {
+ConvexPolyhedron BipyramidBody(std::span<const Eigen::Vector2d> polygon, double height,
+                               FacetStyle style) {
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector2d& corner : polygon) points.emplace_back(corner[0], corner[1], 0.0);
   points.emplace_back(0.0, 0.0, -height);

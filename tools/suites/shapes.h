@@ -17,8 +17,8 @@ enum class FacetStyle {
   kTriangulated,  // each polygon as a fan: coplanar neighbours
 };
 
-// The exact hull of `points`, numbered by the points and their order alone (exact/convex_hull.h). The
-// body, or the status that says why there is none.
+// The exact hull of `points`, numbered by the points and their order alone (exact/convex_hull.h).
+// The body, or the status that says why there is none.
 StatusOr<ConvexPolyhedron> HullBody(std::span<const Eigen::Vector3d> points, FacetStyle style);
 
 // The hull of `count` random points on an ellipsoid; all of them are corners, up to rounding.
@@ -28,7 +28,8 @@ ConvexPolyhedron EllipsoidBody(Random& random, int count, const Eigen::Vector3d&
 // Integer coordinates, all below 2^12 and so fit for contact.h.
 
 // An axis-parallel box around the origin.
-ConvexPolyhedron BoxBody(const Eigen::Vector3d& half_extents, FacetStyle style = FacetStyle::kMerged);
+ConvexPolyhedron BoxBody(const Eigen::Vector3d& half_extents,
+                         FacetStyle style = FacetStyle::kMerged);
 // `corners` lattice points of one circle (3 <= corners <= 108), around the origin: convex and
 // cocircular, exactly. Counterclockwise.
 std::vector<Eigen::Vector2d> LatticePolygon(Random& random, int corners);
@@ -36,7 +37,8 @@ std::vector<Eigen::Vector2d> LatticePolygon(Random& random, int corners);
 ConvexPolyhedron PrismBody(std::span<const Eigen::Vector2d> polygon, double height, bool anti,
                            FacetStyle style);
 // The polygon at z = 0 between apexes at z = -height and z = height.
-ConvexPolyhedron BipyramidBody(std::span<const Eigen::Vector2d> polygon, double height, FacetStyle style);
+ConvexPolyhedron BipyramidBody(std::span<const Eigen::Vector2d> polygon, double height,
+                               FacetStyle style);
 
 }  // namespace touchstone
 

@@ -23,9 +23,9 @@ struct PlacedPair {
 
 // A named, seeded generator of placed pairs.
 //
-// `Generate` is a pure function: (name, seed, index) gives the same doubles in every run, thread and
-// machine. Suites keep to random.h and arithmetic.h for that, and never read anything from the core
-// but what they gave it (its interior points may change from version to version).
+// `Generate` is a pure function: (name, seed, index) gives the same doubles in every run, thread
+// and machine. Suites keep to random.h and arithmetic.h for that, and never read anything from the
+// core but what they gave it (its interior points may change from version to version).
 class Suite {
  public:
   virtual ~Suite() = default;

@@ -22,7 +22,8 @@ class TetrahedraSuite : public Suite {
  public:
   std::string_view name() const override { return "tetrahedra"; }
   std::string_view summary() const override {
-    return "tetrahedra of small integers, 1:1:1 to 40:3:3, moved by small integers or in exact contact";
+    return "tetrahedra of small integers, 1:1:1 to 40:3:3, moved by small integers or in exact "
+           "contact";
   }
   std::string_view attacks() const override {
     return "the strict inequalities of the arc test: ties among very few faces";
@@ -37,12 +38,14 @@ class TetrahedraSuite : public Suite {
       return Bodies{Tetrahedron(random, extents), Tetrahedron(random, extents)};
     });
     Random random(name(), seed, 2 * index + 1);
-    const Eigen::Matrix3d rotation = random.OneIn(2) ? Eigen::Matrix3d::Identity() : random.AxisRotation();
+    const Eigen::Matrix3d rotation =
+        random.OneIn(2) ? Eigen::Matrix3d::Identity() : random.AxisRotation();
     const int step = static_cast<int>(index % kIndicesPerPair);
     if (step >= kContactOffsetCount) {
       const ContactFeatures contact =
           DrawContact(random, bodies.p, bodies.q, rotation, [](int, int) { return true; });
-      return PlaceAtContact(random, bodies.p, bodies.q, rotation, contact, step - kContactOffsetCount);
+      return PlaceAtContact(random, bodies.p, bodies.q, rotation, contact,
+                            step - kContactOffsetCount);
     }
     Eigen::Vector3d translation;
     for (int i = 0; i < 3; ++i) translation[i] = random.Integer(-extents[i], extents[i]);
@@ -52,9 +55,12 @@ class TetrahedraSuite : public Suite {
  private:
   static Eigen::Vector3i Extents(std::uint64_t number) {
     switch (number % 4) {
-      case 0: return {3, 3, 3};
-      case 1: return {10, 10, 10};
-      default: return {40, 3, 3};
+      case 0:
+        return {3, 3, 3};
+      case 1:
+        return {10, 10, 10};
+      default:
+        return {40, 3, 3};
     }
   }
 

@@ -23,8 +23,8 @@ RelativePose MakePose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& tr
   return *pose;
 }
 
-// Bodies symmetric about the origin, so that with Q moved by t the line from the middle of M (at -t)
-// through o is the line through t: aimed at vertices, edges and faces of M by choice of t.
+// Bodies symmetric about the origin, so that with Q moved by t the line from the middle of M (at
+// -t) through o is the line through t: aimed at vertices, edges and faces of M by choice of t.
 class TiesSuite : public Suite {
  public:
   std::string_view name() const override { return "ties"; }
@@ -46,10 +46,15 @@ class TiesSuite : public Suite {
     });
     Random random(name(), seed, 2 * index + 1);
     switch (index % 8) {
-      case 0: return Twice(random, bodies.p);
-      case 1: return {bodies.p, bodies.q, MakePose(random.AxisRotation(), Eigen::Vector3d::Zero()), Verdict::kOverlap};
-      case 2: return Contained(random, bodies.p);
-      default: return Aimed(random, bodies);
+      case 0:
+        return Twice(random, bodies.p);
+      case 1:
+        return {bodies.p, bodies.q, MakePose(random.AxisRotation(), Eigen::Vector3d::Zero()),
+                Verdict::kOverlap};
+      case 2:
+        return Contained(random, bodies.p);
+      default:
+        return Aimed(random, bodies);
     }
   }
 
@@ -57,7 +62,10 @@ class TiesSuite : public Suite {
   static ConvexPolyhedron Symmetric(Random& random) {
     const FacetStyle style = random.OneIn(3) ? FacetStyle::kTriangulated : FacetStyle::kMerged;
     switch (random.Integer(0, 3)) {
-      case 0: return BoxBody({1.0 * random.Integer(1, 8), 1.0 * random.Integer(1, 8), 1.0 * random.Integer(1, 8)}, style);
+      case 0:
+        return BoxBody(
+            {1.0 * random.Integer(1, 8), 1.0 * random.Integer(1, 8), 1.0 * random.Integer(1, 8)},
+            style);
       case 1: {
         const double x = random.Integer(1, 8);
         const double y = random.Integer(1, 8);
@@ -66,10 +74,12 @@ class TiesSuite : public Suite {
       }
       case 2: {
         const int radius = random.OneIn(2) ? 12 : 20;
-        const std::vector<Eigen::Vector2d> circle = LatticePolygon(random, radius);  // all points of a circle
+        const std::vector<Eigen::Vector2d> circle =
+            LatticePolygon(random, radius);  // all points of a circle
         return PrismBody(circle, random.Integer(1, 30), false, style);
       }
-      default: return MirroredCloud(random, style);
+      default:
+        return MirroredCloud(random, style);
     }
   }
 
@@ -91,12 +101,18 @@ class TiesSuite : public Suite {
 
   // The same body, moved not at all, by an ulp, or by its own coordinates.
   static PlacedPair Twice(Random& random, const ConvexPolyhedron& body) {
-    const Eigen::Matrix3d rotation = random.OneIn(2) ? Eigen::Matrix3d::Identity() : random.AxisRotation();
+    const Eigen::Matrix3d rotation =
+        random.OneIn(2) ? Eigen::Matrix3d::Identity() : random.AxisRotation();
     Eigen::Vector3d translation = Eigen::Vector3d::Zero();
     switch (random.Integer(0, 2)) {
-      case 0: break;
-      case 1: translation[random.Integer(0, 2)] = random.OneIn(2) ? 0x1p-50 : -0x1p-50; break;
-      default: translation = body.vertex(random.Integer(0, body.vertex_count() - 1)); break;
+      case 0:
+        break;
+      case 1:
+        translation[random.Integer(0, 2)] = random.OneIn(2) ? 0x1p-50 : -0x1p-50;
+        break;
+      default:
+        translation = body.vertex(random.Integer(0, body.vertex_count() - 1));
+        break;
     }
     return {body, body, MakePose(rotation, translation)};
   }
@@ -126,13 +142,15 @@ class TiesSuite : public Suite {
       const Eigen::Vector3d turned = direction + 0.5 * random.SpherePoint();
       target = (target + Extreme(bodies, rotation, turned)) / 2.0;
     }
-    static constexpr std::array<double, 8> kFactors = {1.0, 1.0, 1.0, 0.5, 0.96875, 1.03125, 2.0, 0x1p-40};
+    static constexpr std::array<double, 8> kFactors = {1.0,     1.0,     1.0, 0.5,
+                                                       0.96875, 1.03125, 2.0, 0x1p-40};
     Eigen::Vector3d translation;
     const double factor = random.Pick(kFactors);
     for (int i = 0; i < 3; ++i) translation[i] = target[i] * factor;
     if (random.OneIn(4)) {
       const int axis = LongestAxis(translation);
-      translation[axis] = StepUlp(translation[axis], random.OneIn(2), PlainMaxCoordinate(bodies.p.vertices()));
+      translation[axis] =
+          StepUlp(translation[axis], random.OneIn(2), PlainMaxCoordinate(bodies.p.vertices()));
     }
     return {bodies.p, bodies.q, MakePose(rotation, translation)};
   }

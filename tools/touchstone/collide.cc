@@ -27,7 +27,8 @@ struct Arguments {
 RelativePose ParsePose(const std::vector<std::string>& words) {
   if (words.empty()) return RelativePose();
   if (words.size() != 12) {
-    throw BadInput{"--pose: takes 12 numbers, the rows of [R | t], not " + std::to_string(words.size())};
+    throw BadInput{"--pose: takes 12 numbers, the rows of [R | t], not " +
+                   std::to_string(words.size())};
   }
   Eigen::Matrix3d rotation;
   Eigen::Vector3d translation;
@@ -50,16 +51,20 @@ ConvexPolyhedron Load(const std::string& path, bool hull) {
 void PrintJudgement(const Arguments& arguments, const JudgedQuery& query, bool constructed) {
   if (!arguments.judge) return;
   if (query.findings.empty()) {
-    std::cout << "judge            no findings" << (constructed ? "; M was built whole, too" : "") << '\n';
+    std::cout << "judge            no findings" << (constructed ? "; M was built whole, too" : "")
+              << '\n';
   }
-  for (const NamedFinding& finding : query.findings) std::cout << "judge            " << finding.kind << ": " << finding.detail << '\n';
+  for (const NamedFinding& finding : query.findings)
+    std::cout << "judge            " << finding.kind << ": " << finding.detail << '\n';
   for (const NamedFinding& finding : query.rounding_findings) {
-    std::cout << "judge            in doubles only: " << finding.kind << ": " << finding.detail << '\n';
+    std::cout << "judge            in doubles only: " << finding.kind << ": " << finding.detail
+              << '\n';
   }
 }
 
 int RunCollide(const Arguments& arguments) {
-  const PlacedPair pair{Load(arguments.p, arguments.hull), Load(arguments.q, arguments.hull), ParsePose(arguments.pose)};
+  const PlacedPair pair{Load(arguments.p, arguments.hull), Load(arguments.q, arguments.hull),
+                        ParsePose(arguments.pose)};
   const CollideOptions options{.search = ParseSearch(arguments.search),
                                .certainty = ParseCertainty(arguments.certainty),
                                .early_exit = arguments.early_exit,
@@ -67,12 +72,20 @@ int RunCollide(const Arguments& arguments) {
   const long product = static_cast<long>(pair.p.vertex_count()) * pair.q.vertex_count();
   const bool construct = product <= kConstruct;
   ExactBodies bodies;
-  JudgedQuery query = Ask(pair, options);  // warms the caches, so that the time shown is the search's
-  query = arguments.judge ? AskAndJudge(pair, options, {.construct = construct}, bodies) : Ask(pair, options);
+  JudgedQuery query =
+      Ask(pair, options);  // warms the caches, so that the time shown is the search's
+  query = arguments.judge ? AskAndJudge(pair, options, {.construct = construct}, bodies)
+                          : Ask(pair, options);
 
   if (arguments.json) {
-    Json json = {{"p", {{"file", arguments.p}, {"vertices", pair.p.vertex_count()}, {"faces", pair.p.face_count()}}},
-                 {"q", {{"file", arguments.q}, {"vertices", pair.q.vertex_count()}, {"faces", pair.q.face_count()}}},
+    Json json = {{"p",
+                  {{"file", arguments.p},
+                   {"vertices", pair.p.vertex_count()},
+                   {"faces", pair.p.face_count()}}},
+                 {"q",
+                  {{"file", arguments.q},
+                   {"vertices", pair.q.vertex_count()},
+                   {"faces", pair.q.face_count()}}},
                  {"search", arguments.search},
                  {"certainty", arguments.certainty},
                  {"early_exit", arguments.early_exit}};
@@ -86,8 +99,10 @@ int RunCollide(const Arguments& arguments) {
     }
     std::cout << json.dump(2) << '\n';
   } else {
-    std::cout << "P                " << arguments.p << ": " << pair.p.vertex_count() << " vertices, " << pair.p.face_count() << " faces\n"
-              << "Q                " << arguments.q << ": " << pair.q.vertex_count() << " vertices, " << pair.q.face_count() << " faces\n"
+    std::cout << "P                " << arguments.p << ": " << pair.p.vertex_count()
+              << " vertices, " << pair.p.face_count() << " faces\n"
+              << "Q                " << arguments.q << ": " << pair.q.vertex_count()
+              << " vertices, " << pair.q.face_count() << " faces\n"
               << "search           " << arguments.search << ", " << arguments.certainty << '\n';
     PrintResult(std::cout, query.result);
     PrintJudgement(arguments, query, construct);
@@ -101,14 +116,20 @@ int RunCollide(const Arguments& arguments) {
 }  // namespace
 
 void AddCollide(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("collide", "Do two convex bodies meet? Prints the verdict and its proof");
+  CLI::App* command =
+      app.add_subcommand("collide", "Do two convex bodies meet? Prints the verdict and its proof");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("P", arguments->p, "mesh file of P: OFF, OBJ, STL or PLY")->required();
   command->add_option("Q", arguments->q, "mesh file of Q")->required();
-  command->add_option("--pose", arguments->pose, "Q's placement relative to P: 12 numbers, row-major 3x4 [R | t]")->expected(1, -1);
-  command->add_option("--search", arguments->search, "published, phased or portal")->capture_default_str();
+  command
+      ->add_option("--pose", arguments->pose,
+                   "Q's placement relative to P: 12 numbers, row-major 3x4 [R | t]")
+      ->expected(1, -1);
+  command->add_option("--search", arguments->search, "published, phased or portal")
+      ->capture_default_str();
   command->add_option("--certainty", arguments->certainty, "float or exact")->capture_default_str();
-  command->add_flag("--early-exit", arguments->early_exit, "stop as soon as the verdict is certain");
+  command->add_flag("--early-exit", arguments->early_exit,
+                    "stop as soon as the verdict is certain");
   command->add_flag("--judge", arguments->judge, "check every part of the answer exactly");
   command->add_flag("--hull", arguments->hull, "take the convex hulls of the meshes");
   command->add_flag("--trace", arguments->trace, "print the faces visited, by phase");

@@ -23,28 +23,37 @@ int RunReplay(const Arguments& arguments) {
   const Loaded<CaseFile> loaded = ReadCase(arguments.path);
   if (!loaded.ok()) throw BadInput{loaded.error()};
   const CaseFile& query = *loaded;
-  const CollideOptions options{.search = arguments.search.empty() ? query.search : ParseSearch(arguments.search),
-                               .certainty = query.certainty,
-                               .early_exit = query.early_exit,
-                               .trace = arguments.trace};
+  const CollideOptions options{
+      .search = arguments.search.empty() ? query.search : ParseSearch(arguments.search),
+      .certainty = query.certainty,
+      .early_exit = query.early_exit,
+      .trace = arguments.trace};
   const long product = static_cast<long>(query.pair.p.vertex_count()) * query.pair.q.vertex_count();
   ExactBodies bodies;
-  const JudgedQuery judged = AskAndJudge(query.pair, options, {.construct = product <= kConstruct}, bodies);
+  const JudgedQuery judged =
+      AskAndJudge(query.pair, options, {.construct = product <= kConstruct}, bodies);
   if (arguments.json) {
-    Json json = {{"case", arguments.path}, {"suite", query.suite},
-                 {"seed", query.seed},     {"index", query.index},
-                 {"search", ToString(options.search)}, {"recorded_finding", query.finding},
-                 {"findings", ToJson(judged.findings)}, {"rounding_findings", ToJson(judged.rounding_findings)},
+    Json json = {{"case", arguments.path},
+                 {"suite", query.suite},
+                 {"seed", query.seed},
+                 {"index", query.index},
+                 {"search", ToString(options.search)},
+                 {"recorded_finding", query.finding},
+                 {"findings", ToJson(judged.findings)},
+                 {"rounding_findings", ToJson(judged.rounding_findings)},
                  {"result", ToJson(judged.result)}};
     std::cout << json.dump(2) << '\n';
   } else {
-    std::cout << "case             " << query.suite << ", seed " << query.seed << ", index " << query.index << '\n'
-              << "bodies           " << query.pair.p.vertex_count() << " and " << query.pair.q.vertex_count() << " vertices\n"
-              << "search           " << ToString(options.search) << ", " << ToString(options.certainty)
-              << (options.early_exit ? ", early exit" : "") << '\n';
+    std::cout << "case             " << query.suite << ", seed " << query.seed << ", index "
+              << query.index << '\n'
+              << "bodies           " << query.pair.p.vertex_count() << " and "
+              << query.pair.q.vertex_count() << " vertices\n"
+              << "search           " << ToString(options.search) << ", "
+              << ToString(options.certainty) << (options.early_exit ? ", early exit" : "") << '\n';
     PrintResult(std::cout, judged.result);
     std::cout << "recorded         " << query.finding << ' ' << query.detail << '\n';
-    for (const NamedFinding& finding : judged.findings) std::cout << "finding          " << finding.kind << ": " << finding.detail << '\n';
+    for (const NamedFinding& finding : judged.findings)
+      std::cout << "finding          " << finding.kind << ": " << finding.detail << '\n';
     for (const NamedFinding& finding : judged.rounding_findings) {
       std::cout << "in doubles only  " << finding.kind << ": " << finding.detail << '\n';
     }
@@ -59,7 +68,8 @@ void AddReplay(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("replay", "Run and judge the query in a case file again");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("CASE", arguments->path, "a case file that verify wrote")->required();
-  command->add_option("--search", arguments->search, "published, phased or portal, instead of the case's");
+  command->add_option("--search", arguments->search,
+                      "published, phased or portal, instead of the case's");
   command->add_flag("--trace", arguments->trace, "print the faces visited, by phase");
   command->add_flag("--json", arguments->json, "print JSON");
   command->callback([arguments, &exit_code] { exit_code = RunReplay(*arguments); });

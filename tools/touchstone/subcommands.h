@@ -22,8 +22,8 @@ struct BadInput {
   std::string message;
 };
 
-// One subcommand a file. Each registers its arguments; when it is the one that was asked for, it runs and
-// leaves the exit code.
+// One subcommand a file. Each registers its arguments; when it is the one that was asked for, it
+// runs and leaves the exit code.
 void AddCollide(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
 void AddSuites(CLI::App& app, int& exit_code);

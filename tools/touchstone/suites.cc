@@ -14,7 +14,8 @@ int RunSuites(bool as_json) {
   Json json = Json::array();
   for (const std::unique_ptr<Suite>& suite : MakeSuites("")) {
     if (as_json) {
-      json.push_back({{"suite", suite->name()}, {"summary", suite->summary()}, {"attacks", suite->attacks()}});
+      json.push_back(
+          {{"suite", suite->name()}, {"summary", suite->summary()}, {"attacks", suite->attacks()}});
     } else {
       std::cout << std::left << std::setw(16) << suite->name() << suite->summary() << '\n';
     }

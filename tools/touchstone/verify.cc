@@ -25,7 +25,7 @@ struct Arguments {
   double minutes = 0.0;
   std::string meshes, cases;
   int threads = 0;
-  std::string certainty = "exact", early_exit = "mixed";
+  std::string certainty = "exact", early_exit = "mixed", depth = "mixed";
   bool coverage = false, json = false;
 };
 
@@ -38,8 +38,16 @@ EarlyExit ParseEarlyExit(const std::string& word) {
   throw BadInput{"--early-exit: '" + word + "' is none of never, always, mixed"};
 }
 
+Depth ParseDepth(const std::string& word) {
+  if (word == "proof") return Depth::kProof;
+  if (word == "mixed") return Depth::kMixed;
+  if (word == "full") return Depth::kFull;
+  throw BadInput{"--depth: '" + word + "' is none of proof, mixed, full"};
+}
+
 // The suites asked for that can run; says on stderr which cannot.
-std::vector<const Suite*> SelectSuites(const Arguments& arguments, const std::vector<std::unique_ptr<Suite>>& all) {
+std::vector<const Suite*> SelectSuites(const Arguments& arguments,
+                                       const std::vector<std::unique_ptr<Suite>>& all) {
   std::vector<const Suite*> selected;
   bool known = arguments.suite == "all";
   for (const std::unique_ptr<Suite>& suite : all) {
@@ -54,7 +62,9 @@ std::vector<const Suite*> SelectSuites(const Arguments& arguments, const std::ve
       throw BadInput{"suite " + arguments.suite + ": " + reason};
     }
   }
-  if (!known) throw BadInput{"--suite: there is no suite '" + arguments.suite + "'; `touchstone suites` lists them"};
+  if (!known)
+    throw BadInput{"--suite: there is no suite '" + arguments.suite +
+                   "'; `touchstone suites` lists them"};
   return selected;
 }
 
@@ -68,7 +78,8 @@ std::string PrepareCases(const std::string& directory) {
   if (directory.empty()) return directory;
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (!std::filesystem::is_directory(directory)) throw BadInput{"--cases: " + directory + " is not a folder and cannot be made one"};
+  if (!std::filesystem::is_directory(directory))
+    throw BadInput{"--cases: " + directory + " is not a folder and cannot be made one"};
   return directory;
 }
 
@@ -76,8 +87,8 @@ void ShowProgress(const Progress& progress) {
   constexpr int kWidth = 40;
   const int filled = static_cast<int>(progress.fraction * kWidth);
   std::cerr << "\r[" << std::string(filled, '#') << std::string(kWidth - filled, '.') << "] "
-            << static_cast<int>(100.0 * progress.fraction) << "%  " << progress.queries << " judged, "
-            << progress.findings << " findings " << std::flush;
+            << static_cast<int>(100.0 * progress.fraction) << "%  " << progress.queries
+            << " judged, " << progress.findings << " findings " << std::flush;
 }
 
 int RunVerifyCommand(const Arguments& arguments) {
@@ -90,11 +101,15 @@ int RunVerifyCommand(const Arguments& arguments) {
   options.searches = SelectSearches(arguments.search);
   options.certainty = ParseCertainty(arguments.certainty);
   options.early_exit = ParseEarlyExit(arguments.early_exit);
+  options.depth = ParseDepth(arguments.depth);
   options.seed = arguments.seed;
   options.first = arguments.first;
-  options.count = arguments.count == 0 && arguments.minutes == 0.0 ? kDefaultCount : arguments.count;
+  options.count =
+      arguments.count == 0 && arguments.minutes == 0.0 ? kDefaultCount : arguments.count;
   options.minutes = arguments.minutes;
-  options.threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.threads = arguments.threads > 0
+                        ? arguments.threads
+                        : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   options.cases_dir = PrepareCases(arguments.cases);
   const std::vector<std::unique_ptr<Suite>> all = MakeSuites(arguments.meshes);
   options.suites = SelectSuites(arguments, all);
@@ -116,22 +131,37 @@ int RunVerifyCommand(const Arguments& arguments) {
 }  // namespace
 
 void AddVerify(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("verify", "Run suites through searches and the exact judge");
+  CLI::App* command =
+      app.add_subcommand("verify", "Run suites through searches and the exact judge");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("--suite", arguments->suite, "a suite's name, or all")->capture_default_str();
-  command->add_option("--search", arguments->search, "published, phased, portal, or all")->capture_default_str();
+  command->add_option("--search", arguments->search, "published, phased, portal, or all")
+      ->capture_default_str();
   command->add_option("--seed", arguments->seed, "which stream of queries")->capture_default_str();
   command->add_option("--first", arguments->first, "the first index")->capture_default_str();
-  command->add_option("--count", arguments->count, "indices per suite; 1000 unless --minutes is given");
-  command->add_option("--minutes", arguments->minutes, "instead of a count: so long, the suites in equal shares");
+  command->add_option("--count", arguments->count,
+                      "indices per suite; 1000 unless --minutes is given");
+  command->add_option("--minutes", arguments->minutes,
+                      "instead of a count: so long, the suites in equal shares");
   command->add_option("--meshes", arguments->meshes, "folder of meshes for the suite of that name");
-  command->add_option("--threads", arguments->threads, "0: as many as the machine has")->capture_default_str();
+  command->add_option("--threads", arguments->threads, "0: as many as the machine has")
+      ->capture_default_str();
   command->add_option("--certainty", arguments->certainty, "float or exact")->capture_default_str();
-  command->add_option("--early-exit", arguments->early_exit, "never, always, or mixed: one in four, in the proven searches")->capture_default_str();
+  command
+      ->add_option("--early-exit", arguments->early_exit,
+                   "never, always, or mixed: one in four, in the proven searches")
+      ->capture_default_str();
+  command
+      ->add_option("--depth", arguments->depth,
+                   "how far the judge looks: proof, mixed, or full (slow)")
+      ->capture_default_str();
   command->add_option("--cases", arguments->cases, "folder for the case files of failing queries");
-  command->add_flag("--coverage", arguments->coverage, "print the count of every combination of class, phase, verdict");
+  command->add_flag("--coverage", arguments->coverage,
+                    "print the count of every combination of class, phase, verdict");
   command->add_flag("--json", arguments->json, "print JSON");
-  command->footer("Exit code 1 when a proven search has a finding; the published search's are counted, not an error.");
+  command->footer(
+      "Exit code 1 when a proven search has a finding; the published search's are counted, not an "
+      "error.");
   command->callback([arguments, &exit_code] { exit_code = RunVerifyCommand(*arguments); });
 }
 

@@ -7,7 +7,8 @@
 #include "touchstone/exact/judge.h"
 
 int main() {
-  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1, 0.1, 0.1}};
+  const std::vector<Eigen::Vector3d> points = {
+      {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1, 0.1, 0.1}};
   const auto body = touchstone::exact::ConvexHull(points);
   if (!body.ok()) {
     std::puts(body.status().ToString().c_str());
