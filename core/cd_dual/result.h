@@ -109,7 +109,7 @@ enum class Phase {
   kVertexFace,  // SEARCH-VF
   kEdgeEdge,    // SEARCH-EE
   kOverlay,     // kPhased: the move across the overlay of the two Gauss maps
-  kPortal,      // kPortal
+  kPortal,      // the portal search: kPortal, and kPhased where parallel features stop its phases
   kExact,       // the exact portal search that finishes what doubles could not
 };
 inline constexpr int kPhaseCount = 7;

@@ -94,7 +94,7 @@ TEST(ProveSeparatingDirection, TiesCostNoScanWhereTheMarginSuffices) {
   MinkowskiDifference m(box, box, MustPose(turned, turned * Eigen::Vector3d(0, 0, 3)));
   Signs signs(m, Certainty::kExact);
   PhaseCounts counts;
-  const Eigen::Vector3d n = -(turned * Eigen::Vector3d(0, 0, 1));
+  const Eigen::Vector3d n = turned * Eigen::Vector3d(0, 0, 1);
   for (int v = 0; v < 8; ++v) EXPECT_NEAR(box.corner_margin(v), 1.0 / std::sqrt(3.0), 1e-12);
   const auto tier = ProveSeparatingDirection(&signs, n, m.Support(n, {}, &counts));
   ASSERT_TRUE(tier);
