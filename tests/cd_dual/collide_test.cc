@@ -6,6 +6,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "touchstone/tests/cd_dual/brute_force.h"
 #include "touchstone/tests/cd_dual/placements.h"
@@ -290,6 +293,32 @@ TEST(Collide, TraceListsEveryFaceTheCountsSay) {
       EXPECT_TRUE(Collide(x.p, x.q, x.pose, options).trace.empty());
     }
   }
+}
+
+TEST(Collide, ThreadsShareBodiesAndAgreeToTheBit) {
+  const ConvexPolyhedron p = MustBuild(RoundBody(60, {3, 1, 1}, 41));
+  const ConvexPolyhedron q = MustBuild(SubdividedCube(2, false));
+  Random random(42);
+  std::vector<RelativePose> poses;
+  for (int i = 0; i < 400; ++i) {
+    poses.push_back(MustPose(i % 2 ? random.Rotation() : AxisRotation(&random),
+                             4.0 * random.Unit() * random.Direction()));
+  }
+  const auto answer = [&] {
+    std::vector<std::pair<Verdict, double>> answers;
+    for (const RelativePose& pose : poses) {
+      const CollideResult result = Collide(p, q, pose);
+      answers.emplace_back(result.verdict, result.exit_travel->value);
+    }
+    return answers;
+  };
+  const auto expected = answer();
+  constexpr int kThreads = 8;
+  std::vector<std::vector<std::pair<Verdict, double>>> answers(kThreads);
+  std::vector<std::thread> threads;
+  for (auto& slot : answers) threads.emplace_back([&] { slot = answer(); });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& slot : answers) EXPECT_EQ(slot, expected);
 }
 
 TEST(Collide, LargerBodiesAgreeAcrossSearchesAtEveryGap) {
