@@ -51,6 +51,7 @@ class Query {
     result_.interior_q = m_.interior_q();
     result_.interior_difference = m_.c() / m_.scale();
     result_.exact_signs = signs_.exact_count();
+    for (TraceStep& step : result_.trace) step.signed_distance *= m_.scale();
     return std::move(result_);
   }
 

@@ -288,6 +288,15 @@ TEST(Collide, TraceListsEveryFaceTheCountsSay) {
       for (const Phase phase : {Phase::kFaceVertex, Phase::kVertexFace, Phase::kEdgeEdge}) {
         const int i = static_cast<int>(phase);
         EXPECT_EQ(visited[i], result.counts[i].faces_visited) << ToString(phase);
+        const PhaseReport& report = result.phases[i - static_cast<int>(Phase::kFaceVertex)];
+        if (report.claim != PhaseClaim::kLocal) continue;
+        double best = -HUGE_VAL;
+        for (const TraceStep& step : result.trace) {
+          if (step.phase == phase) best = std::max(best, step.signed_distance);
+        }
+        if (search == Search::kPublished) {
+          EXPECT_EQ(report.signed_distance, best) << ToString(phase);
+        }
       }
       options.trace = false;
       EXPECT_TRUE(Collide(x.p, x.q, x.pose, options).trace.empty());
