@@ -66,6 +66,7 @@ TEST(Suites, GiveTheSameDoublesOnEveryMachine) {
   const std::map<std::string, std::uint64_t> expected = {
       {"ellipsoid-1", 0x84c034b805c28702u},  {"ellipsoid-2", 0x41647afbb720343eu},
       {"ellipsoid-4", 0x3f6292ca0e3d36dcu},  {"ellipsoid-10", 0x6be699c2eaaa818du},
+      {"ellipsoid-n20", 0x57a6e4453350d9afu},
       {"large", 0x397dfc14ec9ab9a3u},        {"grid", 0x797f4671c833c596u},
       {"boxes-face", 0x794854043b2c4f92u},   {"boxes-edge", 0xe587df327051a86bu},
       {"boxes-vertex", 0x8d470ad1dbc6932eu}, {"prisms", 0x6ffba1a524cb9a7bu},
