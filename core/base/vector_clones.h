@@ -10,8 +10,7 @@
 // Left out where the loader's choice does not get along with the tool: sanitizers, other compilers.
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define TOUCHSTONE_VECTOR_CLONES \
-  __attribute__((target_clones("avx512f", "avx2", "default")))
+#define TOUCHSTONE_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define TOUCHSTONE_VECTOR_CLONES
 #endif

@@ -107,8 +107,8 @@ class Query {
     const auto crossed = CrossedTriangle(m_, polygon, nullptr);
     const auto triangle =
         crossed.value_or(std::array<VertexPair, 3>{polygon[0], polygon[1], polygon[2]});
-    result_.face = ExitFace{outcome.face.face_class, outcome.face.feature_p, outcome.face.feature_q,
-                            triangle};
+    result_.face =
+        ExitFace{outcome.face.face_class, outcome.face.feature_p, outcome.face.feature_q, triangle};
     if (!outcome.stopped_early) MeasureExit(&signs_, triangle, &result_);
   }
 
@@ -186,7 +186,8 @@ class Query {
     result_.verdict = Verdict::kOverlap;
     result_.tier = *tier;
     result_.termination = Termination::kEarlyExit;
-    result_.certificate = {CertificateKind::kEnclosingTetrahedron, Eigen::Vector3d::Zero(), triangle};
+    result_.certificate = {CertificateKind::kEnclosingTetrahedron, Eigen::Vector3d::Zero(),
+                           triangle};
     return true;
   }
 
@@ -237,8 +238,8 @@ class Query {
 
 }  // namespace
 
-CollideResult Collide(const ConvexPolyhedron& p, const ConvexPolyhedron& q, const RelativePose& pose,
-                      const CollideOptions& options) {
+CollideResult Collide(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
+                      const RelativePose& pose, const CollideOptions& options) {
   return Query(p, q, pose, options).Run();
 }
 

@@ -21,15 +21,14 @@ struct CollideOptions {
 //
 // Returns the verdict of the closed bodies with a certificate that proves it, and, unless it exits
 // early, the facet of M that the ray from c through o leaves by, with d and g. Directions, points
-// and the certificate are in P's frame. Never throws, never returns NaN; every search ends: kPublished
-// and kPhased because the signed distance strictly increases over finitely many faces, kPortal
-// because it stops after a fixed number of rounds and the exact search that then takes over visits no
-// triangle twice (exact_portal.h).
-// Complexity: O(log n) to O(sqrt n) a round in practice, a dozen rounds.
-// Source: Choi, Li, Wang, Cameron, "Collision Detection of Convex Polyhedra Based on Duality
-// Transformation", sections 3 and 4.
-CollideResult Collide(const ConvexPolyhedron& p, const ConvexPolyhedron& q, const RelativePose& pose,
-                      const CollideOptions& options = {});
+// and the certificate are in P's frame. Never throws, never returns NaN; every search ends:
+// kPublished and kPhased because the signed distance strictly increases over finitely many faces,
+// kPortal because it stops after a fixed number of rounds and the exact search that then takes over
+// visits no triangle twice (exact_portal.h). Complexity: O(log n) to O(sqrt n) a round in practice,
+// a dozen rounds. Source: Choi, Li, Wang, Cameron, "Collision Detection of Convex Polyhedra Based
+// on Duality Transformation", sections 3 and 4.
+CollideResult Collide(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
+                      const RelativePose& pose, const CollideOptions& options = {});
 
 }  // namespace touchstone
 

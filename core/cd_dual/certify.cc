@@ -15,8 +15,8 @@ const ConvexPolyhedron& BodyOf(const Signs& signs, Body body) {
 int VertexOf(VertexPair pair, Body body) { return body == Body::kP ? pair.p : pair.q; }
 
 // How much further along n than `vertex` any point of the body can be, at most, in the body's own
-// lengths: 0 where every neighbour is certainly not further; infinity where that proves nothing. `n` is
-// given in the body's frame, each coordinate off by at most `n_error`.
+// lengths: 0 where every neighbour is certainly not further; infinity where that proves nothing.
+// `n` is given in the body's frame, each coordinate off by at most `n_error`.
 double Excess(const ConvexPolyhedron& shape, int vertex, const Eigen::Vector3d& n, double n_error) {
   const double margin = shape.corner_margin(vertex);
   if (!(margin > 0.0)) return HUGE_VAL;
@@ -44,16 +44,16 @@ bool AllBelow(const MinkowskiDifference& m, const Eigen::Vector3d& n) {
   for (const Eigen::Vector3d& b : m.q().vertices()) {
     min_q = std::min(min_q, n.dot(pose.rotation() * b + pose.translation()));
   }
-  // n.a: 3.01 u |n|_1 |a|_max; n.(R b + t): the image is off by at most the coordinate error, its dot
-  // product adds 3.01 u |n|_1 |image|; the difference of the two one rounding more: together below
-  // |n|_1 (E + 5 u size), in scaled lengths.
+  // n.a: 3.01 u |n|_1 |a|_max; n.(R b + t): the image is off by at most the coordinate error, its
+  // dot product adds 3.01 u |n|_1 |image|; the difference of the two one rounding more: together
+  // below |n|_1 (E + 5 u size), in scaled lengths.
   const double bound =
       1.01 * n.lpNorm<1>() * (m.coordinate_error() + 5.0 * kRoundingUnit * m.size());
   return m.scale() * (max_p - min_q) < -bound;
 }
 
-// Does edge (from, to) of `body` lie in the plane because the plane's own points say so? Two of them
-// that share the other body's vertex differ by exactly that edge.
+// Does edge (from, to) of `body` lie in the plane because the plane's own points say so? Two of
+// them that share the other body's vertex differ by exactly that edge.
 bool InPlaneByIdentity(const FacetPlane& plane, Body body, int from, int to) {
   const Body other = body == Body::kP ? Body::kQ : Body::kP;
   for (const VertexPair& x : plane.points) {
@@ -105,8 +105,8 @@ std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d
       1.01 * length * (3.1 * kRoundingUnit * w.cwiseAbs().maxCoeff() + m.coordinate_error());
   const double height = direction.dot(w) + error;
   if (!(height < 0.0)) return std::nullopt;
-  // Entries of R are at most 1 + 1e-6 in magnitude: a coordinate of Rᵀn is off by 3.01 u |n|_1, and by
-  // the rotation's own error.
+  // Entries of R are at most 1 + 1e-6 in magnitude: a coordinate of Rᵀn is off by 3.01 u |n|_1, and
+  // by the rotation's own error.
   const double turned_error = length * (3.1 * kRoundingUnit + m.pose().rotation_error());
   const double excess = Excess(m.p(), support.p, direction, 0.0) +
                         Excess(m.q(), support.q, -m.DirectionToQ(direction), turned_error);
@@ -119,9 +119,9 @@ std::optional<Tier> ProveEnclosingTetrahedron(Signs* signs,
                                               const std::array<VertexPair, 3>& triangle) {
   const auto& [x, y, z] = triangle;
   const long exact_before = signs->exact_count();
-  // With r = o - c and ai = vi - c, r = sum mu_i a_i by Cramer: mu_3 ~ det[a1 a2 r] = -det[v1 v2 c],
-  // and l0 = 1 - sum mu_i ~ det[v1 v2 v3]. All with the denominator det[a1 a2 a3], the sum of the
-  // four, hence positive: the tetrahedron is not flat.
+  // With r = o - c and ai = vi - c, r = sum mu_i a_i by Cramer: mu_3 ~ det[a1 a2 r] = -det[v1 v2
+  // c], and l0 = 1 - sum mu_i ~ det[v1 v2 v3]. All with the denominator det[a1 a2 a3], the sum of
+  // the four, hence positive: the tetrahedron is not flat.
   const auto front = signs->Determinant(x, y, z);
   if (!front || *front <= 0) return std::nullopt;
   const VertexPair sides[3][2] = {{y, x}, {z, y}, {x, z}};
@@ -135,7 +135,8 @@ std::optional<Tier> ProveEnclosingTetrahedron(Signs* signs,
 std::optional<Feature> SupportingFeature(Signs* signs, FacetPlane* plane, Body body, int vertex) {
   const ConvexPolyhedron& shape = BodyOf(*signs, body);
   const int own_face = FaceByIdentity(*signs, *plane, body, vertex);
-  if (own_face >= 0) return Feature{FeatureKind::kFace, own_face};  // convexity was proven on building
+  if (own_face >= 0)
+    return Feature{FeatureKind::kFace, own_face};  // convexity was proven on building
 
   if (!shape.is_corner(vertex)) return std::nullopt;
   const auto neighbors = shape.vertex_neighbors(vertex);
@@ -202,8 +203,8 @@ std::optional<ExitFace> ProveExitFace(Signs* signs, const std::array<VertexPair,
   const auto& [x, y, z] = triangle;
   const VertexPair sides[3][2] = {{y, x}, {z, y}, {x, z}};
   // det[a1 a2 r] and its turns: none negative, and not all zero. Their sum is n.r, so the triangle
-  // is not flat and faces along the ray; n.(w - c) > 0 follows once the plane is proven to support M,
-  // c being strictly inside.
+  // is not flat and faces along the ray; n.(w - c) > 0 follows once the plane is proven to support
+  // M, c being strictly inside.
   bool crossed = false;
   for (const auto& [a, b] : sides) {
     const auto sign = signs->Determinant(a, b, kInteriorDifference);

@@ -75,9 +75,9 @@ double Volume(const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Eigen::V
   return x.dot(y.cross(z));
 }
 
-// The sign of a volume of three unit normals, zero where it may be rounding: each normal is off by a
-// few units of 2^-52, so the volume of normals in one plane comes out below 32 of them. Without this,
-// aligned edges would span faces that M does not have.
+// The sign of a volume of three unit normals, zero where it may be rounding: each normal is off by
+// a few units of 2^-52, so the volume of normals in one plane comes out below 32 of them. Without
+// this, aligned edges would span faces that M does not have.
 double Sign(double volume) {
   constexpr double kRounding = 32.0 * kRoundingUnit;
   return volume > kRounding ? 1.0 : volume < -kRounding ? -1.0 : 0.0;
@@ -104,9 +104,12 @@ std::optional<FaceOfM> EdgeEdgeFace(const MinkowskiDifference& m, int e_p, int e
   Eigen::Vector3d normal = (m.scale() * along_p).cross(m.scale() * along_q);
   if (normal.dot(a + b) < 0.0) normal = -normal;
   const VertexPair corner{in_p.tail, in_q.tail};
-  return FaceOfM{FaceClass::kEdgeEdge,       {FeatureKind::kEdge, e_p},
-                 {FeatureKind::kEdge, e_q}, corner,
-                 normal,                     SignedDistance(m, normal, normal.dot(m.Point(corner)))};
+  return FaceOfM{FaceClass::kEdgeEdge,
+                 {FeatureKind::kEdge, e_p},
+                 {FeatureKind::kEdge, e_q},
+                 corner,
+                 normal,
+                 SignedDistance(m, normal, normal.dot(m.Point(corner)))};
 }
 
 FaceOfM SearchEdgeEdge(const MinkowskiDifference& m, const FaceOfM& start, bool early_exit,

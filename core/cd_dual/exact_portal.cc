@@ -55,8 +55,8 @@ class ExactPortalSearch {
     return std::nullopt;
   }
 
-  // p_i - q0 for the vertices of P are points of M around c = p0 - q0: the ray leaves P - q0 through
-  // exactly one triangle of the fans of P's faces.
+  // p_i - q0 for the vertices of P are points of M around c = p0 - q0: the ray leaves P - q0
+  // through exactly one triangle of the fans of P's faces.
   Portal PortalThroughP() const {
     const ConvexPolyhedron& p = m_.p();
     for (int f = 0; f < p.face_count(); ++f) {
@@ -74,8 +74,8 @@ class ExactPortalSearch {
     return {};
   }
 
-  // The corner at the other end of the body's edge that leaves `corner` towards its neighbour k, past
-  // the vertices within that edge.
+  // The corner at the other end of the body's edge that leaves `corner` towards its neighbour k,
+  // past the vertices within that edge.
   static int FollowEdge(const ConvexPolyhedron& shape, int corner, int k) {
     int edge = shape.vertex_edges(corner)[k];
     int v = shape.vertex_neighbors(corner)[k];
@@ -117,8 +117,8 @@ class ExactPortalSearch {
   ExactExit Run(Portal portal) {
     for (;;) {
       ++counts_->faces_visited;
-      const DyadicVector n = Cross(portal[1].from_c - portal[0].from_c,
-                                   portal[2].from_c - portal[0].from_c);
+      const DyadicVector n =
+          Cross(portal[1].from_c - portal[0].from_c, portal[2].from_c - portal[0].from_c);
       const PortalPoint beyond = MakePoint({Support(Body::kP, n), Support(Body::kQ, n)});
       if (Dot(n, beyond.from_c - portal[0].from_c).sign() == 0) {
         return {{portal[0].pair, portal[1].pair, portal[2].pair},
@@ -158,9 +158,8 @@ class ExactPortalSearch {
   bool IsFurther(Body body, const DyadicVector& n, const Eigen::Vector3d& approximate, int to,
                  int from) const {
     double error = 0.0;
-    const Eigen::Vector3d edge = body == Body::kP
-                                     ? m_.Difference({to, 0}, {from, 0}, &error)
-                                     : m_.Difference({0, to}, {0, from}, &error);
+    const Eigen::Vector3d edge = body == Body::kP ? m_.Difference({to, 0}, {from, 0}, &error)
+                                                  : m_.Difference({0, to}, {0, from}, &error);
     // Coordinates of n are at most 1 and off by 2 u: |dn.e| <= 6 u |e|, the dot product adds
     // 9 u |e|, the edge's own error 3 `error`.
     const double value = approximate.dot(edge);
@@ -179,8 +178,7 @@ class ExactPortalSearch {
 
 }  // namespace
 
-ExactExit FindExactExit(Signs* signs, const std::array<VertexPair, 3>& start,
-                        PhaseCounts* counts) {
+ExactExit FindExactExit(Signs* signs, const std::array<VertexPair, 3>& start, PhaseCounts* counts) {
   ExactPortalSearch search(signs, counts);
   auto portal = search.PortalFrom(start);
   if (!portal) portal = search.PortalThroughP();

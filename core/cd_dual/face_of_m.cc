@@ -60,8 +60,8 @@ std::optional<std::array<VertexPair, 3>> CrossedTriangle(const MinkowskiDifferen
 void SearchLog::Visit(Phase phase, const FaceOfM& face, bool accepted) {
   ++of(phase).faces_visited;
   if (trace) {
-    trace->push_back({phase, face.face_class, face.feature_p, face.feature_q, face.signed_distance,
-                      accepted});
+    trace->push_back(
+        {phase, face.face_class, face.feature_p, face.feature_q, face.signed_distance, accepted});
   }
 }
 

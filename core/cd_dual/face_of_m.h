@@ -9,8 +9,8 @@
 
 namespace touchstone {
 
-// A face of M as the three phases see it: of class FaceVertex, VertexFace or EdgeEdge, spanned by one
-// feature of each body.
+// A face of M as the three phases see it: of class FaceVertex, VertexFace or EdgeEdge, spanned by
+// one feature of each body.
 //
 //   paper            here
 //   F(f_p, v_q)      face_class kFaceVertex, feature_p a face, feature_q a vertex

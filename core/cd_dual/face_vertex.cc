@@ -11,7 +11,11 @@ FaceOfM FaceVertexFace(const MinkowskiDifference& m, int f, int hint, PhaseCount
   ++counts->support_calls;
   const int v = SupportVertex(m.q(), -m.DirectionToQ(normal), hint, &counts->climb_steps);
   const VertexPair corner{m.p().face(f)[0], v};
-  return {FaceClass::kFaceVertex, {FeatureKind::kFace, f}, {FeatureKind::kVertex, v}, corner, normal,
+  return {FaceClass::kFaceVertex,
+          {FeatureKind::kFace, f},
+          {FeatureKind::kVertex, v},
+          corner,
+          normal,
           SignedDistance(m, normal, normal.dot(m.Point(corner)))};
 }
 

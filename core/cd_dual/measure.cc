@@ -49,7 +49,8 @@ ExitNumbers InDoubles(const Signs& signs, const std::array<VertexPair, 3>& trian
     const double ln = plane.normal.lpNorm<1>() + 3.0 * plane.normal_error;
     return Estimate{plane.normal.dot(x),
                     1.01 * (3.1 * kRoundingUnit * ln * x.cwiseAbs().maxCoeff() + ln * dx +
-                            plane.normal_error * x.lpNorm<1>()) + 0x1p-1000};
+                            plane.normal_error * x.lpNorm<1>()) +
+                        0x1p-1000};
   };
   const double e = m.coordinate_error();
   const Estimate k = along_normal(w, e);
@@ -84,7 +85,9 @@ ExitNumbers InBigNumbers(Signs* signs, const std::array<VertexPair, 3>& triangle
 
   // Each ratio is good to 2 ulp, each coordinate of c too, the norm adds three roundings, each
   // product one: below 8 u; 12 u leaves room for the roundings of the claim itself.
-  const auto claimed = [](double value) { return Estimate{value, 12.0 * kRoundingUnit * std::abs(value)}; };
+  const auto claimed = [](double value) {
+    return Estimate{value, 12.0 * kRoundingUnit * std::abs(value)};
+  };
   ExitNumbers out;
   out.tau = claimed(-RatioToDouble(k, toward_o));
   out.g = claimed(out.tau.value * length);
@@ -101,8 +104,8 @@ void MeasureExit(Signs* signs, const std::array<VertexPair, 3>& triangle, Collid
   ExitNumbers numbers = InDoubles(*signs, triangle);
 
   // A perturbation of the points by delta moves the plane's crossing with the line of c by about
-  // delta / |n.c / (|n||c|)|: relative to g, size / (cosine |g|); d = g / (|c|^2 s) with s = 1 - g/|c|
-  // changes by delta / (cosine |c|^2 s^2).
+  // delta / |n.c / (|n||c|)|: relative to g, size / (cosine |g|); d = g / (|c|^2 s) with s = 1 -
+  // g/|c| changes by delta / (cosine |c|^2 s^2).
   const Eigen::Vector3d n = signs->Plane(triangle).normal;
   const double cosine = std::abs(n.dot(m.c())) / (n.norm() * m.c_norm());
   const auto conditions = [&](const ExitNumbers& x) {

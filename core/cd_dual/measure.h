@@ -11,8 +11,8 @@ namespace touchstone {
 //
 // With K = det[v1 v2 v3], D = det[a1 a2 a3] (ai = vi - c) and E = D - K = n.(o - c):
 //   exit point = -(K / E) c,   g = -(K / E) |c|,   d = -(K / D) / |c|.
-// Evaluated in doubles where the forward bound keeps to 1e-12 of the condition number; by big numbers
-// otherwise, and then good to a few units in the last place. Zero is exact.
+// Evaluated in doubles where the forward bound keeps to 1e-12 of the condition number; by big
+// numbers otherwise, and then good to a few units in the last place. Zero is exact.
 void MeasureExit(Signs* signs, const std::array<VertexPair, 3>& triangle, CollideResult* result);
 
 }  // namespace touchstone

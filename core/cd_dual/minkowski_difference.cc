@@ -34,15 +34,16 @@ MinkowskiDifference::MinkowskiDifference(const ConvexPolyhedron& p, const Convex
   size_ = size * scale_;
   // R b + t: three products and three sums, each term passing at most four roundings, then one more
   // for a - (...): (1 + u)^5 - 1 < 5.01 u of the sum of absolute terms, which is at most `size`.
-  // Scaling is exact but for underflow, which is below 2^-1022 and disappears in the rounded-up 5.1.
-  // The entries of a rounded relative pose add their own errors.
-  coordinate_error_ = 5.1 * kRoundingUnit * size_ +
-                      scale_ * (3.01 * pose.rotation_error() * q.max_coordinate() +
-                                1.01 * pose.translation_error());
+  // Scaling is exact but for underflow, which is below 2^-1022 and disappears in the
+  // rounded-up 5.1. The entries of a rounded relative pose add their own errors.
+  coordinate_error_ =
+      5.1 * kRoundingUnit * size_ + scale_ * (3.01 * pose.rotation_error() * q.max_coordinate() +
+                                              1.01 * pose.translation_error());
   ChooseInterior(0, 0);
 }
 
-Eigen::Vector3d MinkowskiDifference::Difference(VertexPair to, VertexPair from, double* error) const {
+Eigen::Vector3d MinkowskiDifference::Difference(VertexPair to, VertexPair from,
+                                                double* error) const {
   const Eigen::Vector3d in_p = PointOfP(to.p) - PointOfP(from.p);
   const Eigen::Vector3d in_q = PointOfQ(to.q) - PointOfQ(from.q);
   // Each difference is rounded once (relative), R times it three times more, the last sum once:
@@ -50,7 +51,8 @@ Eigen::Vector3d MinkowskiDifference::Difference(VertexPair to, VertexPair from, 
   const double p_max = in_p.cwiseAbs().maxCoeff();
   const double q_max = in_q.cwiseAbs().maxCoeff();
   *error = scale_ * (5.1 * kRoundingUnit * (p_max + kRowFactor * q_max) +
-                     3.01 * pose_.rotation_error() * q_max) + 0x1p-1000;
+                     3.01 * pose_.rotation_error() * q_max) +
+           0x1p-1000;
   return scale_ * (in_p - pose_.rotation() * in_q);
 }
 

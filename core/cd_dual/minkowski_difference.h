@@ -10,8 +10,8 @@
 
 namespace touchstone {
 
-// Half a unit in the last place is 2^-53 to nearest; 2^-52 bounds the relative rounding error of one
-// operation in every rounding mode, so bounds made of it hold whatever the host has set.
+// Half a unit in the last place is 2^-53 to nearest; 2^-52 bounds the relative rounding error of
+// one operation in every rounding mode, so bounds made of it hold whatever the host has set.
 inline constexpr double kRoundingUnit = 0x1p-52;
 
 // A vertex pair with p = -1 or q = -1 names the chosen interior point of that body instead.
@@ -26,7 +26,8 @@ inline constexpr VertexPair kInteriorDifference{kInteriorPoint, kInteriorPoint};
 // Holds references: a view for the length of one query.
 class MinkowskiDifference {
  public:
-  MinkowskiDifference(const ConvexPolyhedron& p, const ConvexPolyhedron& q, const RelativePose& pose);
+  MinkowskiDifference(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
+                      const RelativePose& pose);
 
   const ConvexPolyhedron& p() const { return p_; }
   const ConvexPolyhedron& q() const { return q_; }
@@ -39,9 +40,9 @@ class MinkowskiDifference {
   }
   double coordinate_error() const { return coordinate_error_; }
 
-  // The difference of two points of M, scaled, formed feature by feature: (a' - a) - R (b' - b). Each
-  // coordinate is within `*error` of the exact one, which shrinks with the features and vanishes
-  // against the size of the bodies.
+  // The difference of two points of M, scaled, formed feature by feature: (a' - a) - R (b' - b).
+  // Each coordinate is within `*error` of the exact one, which shrinks with the features and
+  // vanishes against the size of the bodies.
   Eigen::Vector3d Difference(VertexPair to, VertexPair from, double* error) const;
 
   // From Q's frame to P's: edges by R, normals by the cofactors of R.
@@ -92,9 +93,9 @@ class MinkowskiDifference {
 };
 
 // Section 4.1: c is one of the four differences of two interior points per body, away from o. The
-// difference of the central points serves unless it is shorter than a thousandth of the smaller body;
-// then the longest of the four does (they are not all o, since the two points of a body differ).
-// Returns whether the central points served.
+// difference of the central points serves unless it is shorter than a thousandth of the smaller
+// body; then the longest of the four does (they are not all o, since the two points of a body
+// differ). Returns whether the central points served.
 bool ChooseInteriorDifference(MinkowskiDifference* m);
 
 }  // namespace touchstone

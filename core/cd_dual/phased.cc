@@ -137,8 +137,8 @@ class PhasedSearch {
   }
 
   // The face of M across `edge`: the plane through the edge is turned from far outside towards the
-  // old face until nothing of M lies beyond it. Each round passes the plane through the support along
-  // the last normal.
+  // old face until nothing of M lies beyond it. Each round passes the plane through the support
+  // along the last normal.
   std::array<VertexPair, 3> TurnAbout(const std::array<VertexPair, 2>& edge) {
     const Eigen::Vector3d v = m_.Point(edge[0]), along = m_.Point(edge[1]) - v;
     PhaseCounts& counts = log_->of(Phase::kOverlay);
@@ -161,7 +161,8 @@ class PhasedSearch {
     return {edge[1], edge[0], third};
   }
 
-  // The face of M spanned by one feature of each body that the triangle lies in, if its points tell.
+  // The face of M spanned by one feature of each body that the triangle lies in, if its points
+  // tell.
   std::optional<FaceOfM> FaceThrough(const std::array<VertexPair, 3>& x) {
     PhaseCounts& counts = log_->of(Phase::kOverlay);
     const auto distinct = [](int a, int b, int c) { return a != b && b != c && a != c; };

@@ -16,10 +16,10 @@ struct PhasedOutcome {
 
 // kPhased: the three phases of the paper, made correct. A phase may stop at a local maximum; what
 // tells is whether the ray from c through o crosses the face found, which is the certificate of
-// optimality. While it does not, the search turns the face's plane about the polygon's edge that the
-// ray passes outside of, until the plane supports M again: that neighbouring face has a strictly
-// larger signed distance, for the old crossing point lies strictly beyond it. From there the phases
-// take over again.
+// optimality. While it does not, the search turns the face's plane about the polygon's edge that
+// the ray passes outside of, until the plane supports M again: that neighbouring face has a
+// strictly larger signed distance, for the old crossing point lies strictly beyond it. From there
+// the phases take over again.
 //
 // Starts from the face of P around its support along the ray instead of the paper's scan over all
 // faces. Proposes; a proof is made elsewhere. Terminates: every move strictly increases the signed

@@ -41,9 +41,9 @@ class PortalSearch {
   }
 
   // Takes M for the sum of two ellipsoids with the bodies' second moments: goes to where that sum
-  // would have its exit, then makes one Newton step with the shadow of the support there as gradient.
-  // Leaves the better of the two supports in base_, its direction in (base_nx_, base_ny_) and the
-  // inverse of the model's Hessian in step_.
+  // would have its exit, then makes one Newton step with the shadow of the support there as
+  // gradient. Leaves the better of the two supports in base_, its direction in (base_nx_, base_ny_)
+  // and the inverse of the model's Hessian in step_.
   bool Approach() {
     const Eigen::Matrix3d sum = frame_.moments_p() + frame_.moments_q();
     Eigen::Vector2d n = -sum.topLeftCorner<2, 2>().inverse() * sum.topRightCorner<2, 1>();
@@ -84,9 +84,9 @@ class PortalSearch {
     return Turn(x_[0], x_[1]) > 0.0 && Turn(x_[1], x_[2]) > 0.0 && Turn(x_[2], x_[0]) > 0.0;
   }
 
-  // Finds a triangle around the axis from any base: two points with the axis to their left, then the
-  // support along the plane through them and c, on the axis's side. c is strictly inside M, so each
-  // support lies beyond that plane.
+  // Finds a triangle around the axis from any base: two points with the axis to their left, then
+  // the support along the plane through them and c, on the axis's side. c is strictly inside M, so
+  // each support lies beyond that plane.
   bool Discover() {
     if (stopped_) return false;
     const double turn1 = Turn(base_, x_[1]), turn2 = Turn(x_[2], base_);

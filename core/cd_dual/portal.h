@@ -16,8 +16,8 @@ struct Proposal {
   enum class Kind {
     kSeparatingDirection,  // `direction` with support `support` has o on its outer side
     kEnclosed,             // the ray crosses `triangle` beyond o
-    kExitFacet,            // nothing of M lies beyond the plane of `triangle`, which the ray crosses
-    kStuck,                // rounding left no triangle worth naming
+    kExitFacet,  // nothing of M lies beyond the plane of `triangle`, which the ray crosses
+    kStuck,      // rounding left no triangle worth naming
   };
   Kind kind = Kind::kStuck;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
@@ -25,11 +25,11 @@ struct Proposal {
   std::array<VertexPair, 3> triangle;
 };
 
-// Keeps a triangle of M's vertices that the ray from c through o crosses, asks for the support along
-// its outward normal, and replaces a vertex, until nothing lies beyond. With `early_exit`, stops at
-// the first direction with o on its outer side and at the first triangle with o on its inner side.
-// Stops after a fixed number of rounds at the latest (rounding may go in circles on ties), proposing
-// the triangle it has. Complexity: about a dozen support pairs.
+// Keeps a triangle of M's vertices that the ray from c through o crosses, asks for the support
+// along its outward normal, and replaces a vertex, until nothing lies beyond. With `early_exit`,
+// stops at the first direction with o on its outer side and at the first triangle with o on its
+// inner side. Stops after a fixed number of rounds at the latest (rounding may go in circles on
+// ties), proposing the triangle it has. Complexity: about a dozen support pairs.
 Proposal SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts);
 
 }  // namespace touchstone

@@ -26,7 +26,8 @@ RayFrame::RayFrame(const MinkowskiDifference& m) : m_(m) {
   axes_in_q_.noalias() = m.pose().rotation().transpose() * axes_;
   offset_.noalias() = axes_.transpose() * m.pose().translation();
   const double squared_scale = m.scale() * m.scale();
-  const auto in_frame = [squared_scale](const Eigen::Matrix3d& axes, const Eigen::Matrix3d& moments) {
+  const auto in_frame = [squared_scale](const Eigen::Matrix3d& axes,
+                                        const Eigen::Matrix3d& moments) {
     const Eigen::Matrix3d half = moments * axes;
     return Eigen::Matrix3d(squared_scale * (axes.transpose() * half));
   };

@@ -14,8 +14,8 @@ struct FramePoint {
   double x = 0.0, y = 0.0, z = 0.0;
 };
 
-// 2-D cross product of the shadows: positive when the ray's axis lies to the left of a -> b, and equal
-// to det[a - c, b - c, o - c] over |o - c|.
+// 2-D cross product of the shadows: positive when the ray's axis lies to the left of a -> b, and
+// equal to det[a - c, b - c, o - c] over |o - c|.
 inline double Turn(const FramePoint& a, const FramePoint& b) { return a.x * b.y - a.y * b.x; }
 
 // M seen along the ray. Where the ray leaves M is a problem of two variables: over the directions

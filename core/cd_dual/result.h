@@ -5,11 +5,11 @@
 //   paper     here                       meaning
 //   P, Q      p, q                       the bodies; Q placed in P's frame by a RelativePose
 //   M         Minkowski difference       {a - b : a in P, b in Q}, in P's frame
-//   c         interior_difference        p_i - (R q_j + t) for stored interior points: strictly inside M
-//   o         the origin
-//   f_opt     ExitFace                   the facet of M that the ray from c through o leaves M by
-//   d(f)      signed_distance            -k / (|c| (k - N.c)) for the facet in the plane N.x = k
-//   g         exit_travel                d |c|^2 / (1 + d |c|): Q moved by g c/|c| just touches P
+//   c         interior_difference        p_i - (R q_j + t) for stored interior points: strictly
+//   inside M o         the origin f_opt     ExitFace                   the facet of M that the ray
+//   from c through o leaves M by d(f)      signed_distance            -k / (|c| (k - N.c)) for the
+//   facet in the plane N.x = k g         exit_travel                d |c|^2 / (1 + d |c|): Q moved
+//   by g c/|c| just touches P
 #ifndef TOUCHSTONE_CORE_CD_DUAL_RESULT_H_
 #define TOUCHSTONE_CORE_CD_DUAL_RESULT_H_
 
@@ -95,7 +95,8 @@ enum class CertificateKind {
   kTouchingFacet,         // the plane of `points` supports M and holds o, as does their triangle
 };
 
-// A proof of the verdict that stands alone: checkable exactly in O(m + n) without any Minkowski sum.
+// A proof of the verdict that stands alone: checkable exactly in O(m + n) without any Minkowski
+// sum.
 struct Certificate {
   CertificateKind kind = CertificateKind::kNone;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // in P's frame
@@ -137,10 +138,10 @@ struct PhaseCounts {
 };
 
 enum class Termination {
-  kOptimal,         // the exit face was found (and, unless kPublished, proven)
-  kEarlyExit,       // the verdict was certain before the exit face was
-  kCoincident,      // c = o
-  kUndecided,       // kFloat: the bounds did not decide
+  kOptimal,     // the exit face was found (and, unless kPublished, proven)
+  kEarlyExit,   // the verdict was certain before the exit face was
+  kCoincident,  // c = o
+  kUndecided,   // kFloat: the bounds did not decide
 };
 
 // One face visited. The portal searches visit triangles, which are not faces, and leave no trace.
@@ -166,10 +167,10 @@ struct CollideResult {
   // Present when the search ran to the exit face: absent after an early exit, for c = o under early
   // exit, and under kFloat where a sign that the face rests on stayed open.
   std::optional<ExitFace> face;
-  std::optional<BoundedValue> signed_distance;       // d
-  std::optional<BoundedValue> exit_travel;           // g
-  std::optional<Eigen::Vector3d> exit_point;         // on M's boundary, P's frame
-  double exit_point_error = 0.0;                     // bound on its distance from the exact point
+  std::optional<BoundedValue> signed_distance;  // d
+  std::optional<BoundedValue> exit_travel;      // g
+  std::optional<Eigen::Vector3d> exit_point;    // on M's boundary, P's frame
+  double exit_point_error = 0.0;                // bound on its distance from the exact point
 
   Certificate certificate;
 

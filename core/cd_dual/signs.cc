@@ -85,10 +85,10 @@ const ExactDifference& Signs::exact() {
 std::optional<int> Signs::Determinant(VertexPair x, VertexPair y, VertexPair z) {
   const Eigen::Vector3d a = m_.Point(x), b = m_.Point(y), c = m_.Point(z);
   // Rounding: a cross product's coordinate passes two roundings, the dot product three more, so
-  // 5.01 u of the permanent of absolute values; a 3x3 permanent is at most 2/sqrt(3) < 1.16 times the
-  // product of the rows' lengths: 6 u |a||b||c|. Data: each point is off by at most e = sqrt(3) times
-  // the coordinate error; replacing one row at a time changes the determinant by at most
-  // e (BC + AC + AB) with A, B, C the lengths plus e. The lengths are rounded: 1 % is left for that.
+  // 5.01 u of the permanent of absolute values; a 3x3 permanent is at most 2/sqrt(3) < 1.16 times
+  // the product of the rows' lengths: 6 u |a||b||c|. Data: each point is off by at most e = sqrt(3)
+  // times the coordinate error; replacing one row at a time changes the determinant by at most e
+  // (BC + AC + AB) with A, B, C the lengths plus e. The lengths are rounded: 1 % is left for that.
   const double e = kSqrt3 * m_.coordinate_error();
   const double la = a.norm() + e, lb = b.norm() + e, lc = c.norm() + e;
   const double error =
@@ -102,9 +102,9 @@ std::optional<int> Signs::Determinant(VertexPair x, VertexPair y, VertexPair z) 
 }
 
 std::optional<int> Signs::HeightOverOrigin(VertexPair x, VertexPair y, VertexPair z) const {
-  // det [x y z] = n . x with n = (y - x) x (z - x), formed from differences: for a sliver, n is short
-  // and its error shorter still, where the product of the three lengths is not. The bound is that of
-  // a dot product with both sides off: 3.01 u sum |n_i x_i| + E sum |n_i| + dn sum |x_i|.
+  // det [x y z] = n . x with n = (y - x) x (z - x), formed from differences: for a sliver, n is
+  // short and its error shorter still, where the product of the three lengths is not. The bound is
+  // that of a dot product with both sides off: 3.01 u sum |n_i x_i| + E sum |n_i| + dn sum |x_i|.
   const FacetPlane plane = Plane({x, y, z});
   const Eigen::Vector3d a = m_.Point(x);
   const double ln = plane.normal.lpNorm<1>() + 3.0 * plane.normal_error;
@@ -118,8 +118,8 @@ std::optional<int> Signs::AlongDirection(const Eigen::Vector3d& n, VertexPair w)
   const Eigen::Vector3d a = m_.Point(w);
   // Three roundings of the dot product, and the point's own error: sum |n_i| (3.01 u |a_i| + E).
   const double length = n.lpNorm<1>();
-  const double error = 1.01 * length *
-                       (3.1 * kRoundingUnit * a.cwiseAbs().maxCoeff() + m_.coordinate_error());
+  const double error =
+      1.01 * length * (3.1 * kRoundingUnit * a.cwiseAbs().maxCoeff() + m_.coordinate_error());
   if (const auto sign = Settled(n.dot(a), error + 0x1p-1000 * length)) return sign;
   if (!exact_allowed()) return std::nullopt;
   ++exact_count_;
@@ -145,15 +145,15 @@ FacetPlane Signs::Plane(const std::array<VertexPair, 3>& points) const {
 std::optional<int> Signs::AlongNormal(FacetPlane* plane, Body body, int to, int from) {
   if (to == from) return 0;
   double error = 0.0;
-  const Eigen::Vector3d edge =
-      body == Body::kP ? m_.Difference({to, 0}, {from, 0}, &error)
-                       : m_.Difference({0, to}, {0, from}, &error);
+  const Eigen::Vector3d edge = body == Body::kP ? m_.Difference({to, 0}, {from, 0}, &error)
+                                                : m_.Difference({0, to}, {0, from}, &error);
   // n.e with n off by dn and e off by de in each coordinate: 3.01 u sum |n_i e_i| + dn sum |e_i| +
   // de sum (|n_i| + dn).
   const double le = edge.lpNorm<1>(), ln = plane->normal.lpNorm<1>() + 3.0 * plane->normal_error;
   const double largest = edge.cwiseAbs().maxCoeff();
-  const double bound = 1.01 * (3.1 * kRoundingUnit * ln * largest + plane->normal_error * le +
-                               ln * error) + 0x1p-1000;
+  const double bound =
+      1.01 * (3.1 * kRoundingUnit * ln * largest + plane->normal_error * le + ln * error) +
+      0x1p-1000;
   if (const auto sign = Settled(plane->normal.dot(edge), bound)) return sign;
   if (!exact_allowed()) return std::nullopt;
   ++exact_count_;

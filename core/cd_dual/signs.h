@@ -40,7 +40,7 @@ class ExactDifference {
 // approximately and on demand exactly.
 struct FacetPlane {
   std::array<VertexPair, 3> points;
-  Eigen::Vector3d normal;     // scaled; each coordinate within normal_error of the exact one
+  Eigen::Vector3d normal;  // scaled; each coordinate within normal_error of the exact one
   double normal_error = 0.0;
   std::optional<DyadicVector> exact_normal;
 };

@@ -8,9 +8,9 @@
 
 namespace touchstone {
 
-// The loop that SEARCH-FV and SEARCH-VF share: from `first`, move to the best of the faces of M that
-// the adjacent faces of `shape` span, while it is better. `IndexOf(face)` is the face of `shape` that
-// a face of M comes from; `Evaluate(f, from)` the face of M that face f spans.
+// The loop that SEARCH-FV and SEARCH-VF share: from `first`, move to the best of the faces of M
+// that the adjacent faces of `shape` span, while it is better. `IndexOf(face)` is the face of
+// `shape` that a face of M comes from; `Evaluate(f, from)` the face of M that face f spans.
 template <class IndexOf, class Evaluate>
 FaceOfM SteepestAscent(const ConvexPolyhedron& shape, const FaceOfM& first, Phase phase,
                        bool early_exit, SearchLog* log, IndexOf index_of, Evaluate evaluate) {

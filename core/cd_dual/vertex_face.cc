@@ -11,7 +11,11 @@ FaceOfM VertexFaceFace(const MinkowskiDifference& m, int f, int hint, PhaseCount
   ++counts->support_calls;
   const int v = SupportVertex(m.p(), normal, hint, &counts->climb_steps);
   const VertexPair corner{v, m.q().face(f)[0]};
-  return {FaceClass::kVertexFace, {FeatureKind::kVertex, v}, {FeatureKind::kFace, f}, corner, normal,
+  return {FaceClass::kVertexFace,
+          {FeatureKind::kVertex, v},
+          {FeatureKind::kFace, f},
+          corner,
+          normal,
           SignedDistance(m, normal, normal.dot(m.Point(corner)))};
 }
 

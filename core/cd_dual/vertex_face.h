@@ -10,8 +10,8 @@ namespace touchstone {
 // `hint` is a vertex of P to climb from, or -1.
 FaceOfM VertexFaceFace(const MinkowskiDifference& m, int f, int hint, PhaseCounts* counts);
 
-// SEARCH-VF (section 3.3.2): SEARCH-FV with the roles of P and -Q exchanged. Returns a local maximum
-// (Theorem 2 fails with Theorem 1).
+// SEARCH-VF (section 3.3.2): SEARCH-FV with the roles of P and -Q exchanged. Returns a local
+// maximum (Theorem 2 fails with Theorem 1).
 FaceOfM SearchVertexFace(const MinkowskiDifference& m, int start, int hint, bool early_exit,
                          SearchLog* log);
 

@@ -68,12 +68,12 @@ class ConvexPolyhedron {
 
   // Whether the faces at edge e lie in different planes.
   bool is_bend(int e) const { return facet_of_face(edge(e).left) != facet_of_face(edge(e).right); }
-  // Whether v is an extreme point: three or more bends meet there. At a corner the neighbours span the
-  // body's cone; at a vertex within an edge or a facet they need not.
+  // Whether v is an extreme point: three or more bends meet there. At a corner the neighbours span
+  // the body's cone; at a vertex within an edge or a facet they need not.
   bool is_corner(int v) const;
   // How far the cone of v's edges is from flat: a unit axis makes at least this cosine with each of
-  // them. Positive only at corners; if no edge w - v of a corner has n.(w - v) > eps |w - v|, then no
-  // point of the body is further along n than v by more than eps times the diameter over this.
+  // them. Positive only at corners; if no edge w - v of a corner has n.(w - v) > eps |w - v|, then
+  // no point of the body is further along n than v by more than eps times the diameter over this.
   double corner_margin(int v) const { return data_->corner_margins[v]; }
 
   // The face across edge e from face f.

@@ -18,7 +18,8 @@ namespace {
 constexpr int kScanLimit = 12;  // corners: a scan is faster up to here
 constexpr double kCellsPerCorner = 8;
 constexpr int kMaxResolution = 1024;
-// Eight doubles in the compiler's own vector type: a loop over lanes is unrolled before it is vectorised.
+// Eight doubles in the compiler's own vector type: a loop over lanes is unrolled before it is
+// vectorised.
 using Lanes = double __attribute__((vector_size(64)));
 using HalfLanes = double __attribute__((vector_size(32)));
 constexpr long kFillBudget = 8;  // blocks per cell

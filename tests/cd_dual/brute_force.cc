@@ -15,8 +15,8 @@ struct Placed {
     const auto place = [&](const Eigen::Vector3d& x) {
       DyadicVector image;
       for (int i = 0; i < 3; ++i) {
-        image[i] = Dot(ToDyadic(pose.rotation().row(i)), ToDyadic(x)) +
-                   Dyadic(pose.translation()[i]);
+        image[i] =
+            Dot(ToDyadic(pose.rotation().row(i)), ToDyadic(x)) + Dyadic(pose.translation()[i]);
       }
       return image;
     };
@@ -41,7 +41,8 @@ struct Placed {
     return best;
   }
 
-  // The parameter at which the ray meets the supporting plane with outward normal n, if it faces it.
+  // The parameter at which the ray meets the supporting plane with outward normal n, if it faces
+  // it.
   std::optional<Fraction> Parameter(const DyadicVector& n, int* tied_p, int* tied_q) const {
     const Dyadic toward = -Dot(n, c);
     if (toward.sign() <= 0) return std::nullopt;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "touchstone/core/cd_dual/cd_dual.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "touchstone/core/cd_dual/cd_dual.h"
 #include "touchstone/tests/cd_dual/brute_force.h"
 #include "touchstone/tests/cd_dual/placements.h"
 #include "touchstone/tests/testing/shapes.h"
@@ -19,7 +18,8 @@ namespace {
 
 constexpr Search kProven[] = {Search::kPhased, Search::kPortal};
 
-CollideOptions Ask(Search search, Certainty certainty = Certainty::kExact, bool early_exit = false) {
+CollideOptions Ask(Search search, Certainty certainty = Certainty::kExact,
+                   bool early_exit = false) {
   CollideOptions options;
   options.search = search;
   options.certainty = certainty;
@@ -27,9 +27,9 @@ CollideOptions Ask(Search search, Certainty certainty = Certainty::kExact, bool 
   return options;
 }
 
-// |claimed - exact| <= error, with exact = (num / den): compared in exact arithmetic, for values that
-// are rational. d and g carry a factor |c|, so their squares are compared through s instead: the test
-// uses the doubles of the exact parameter, good to 2 ulp, and allows for that.
+// |claimed - exact| <= error, with exact = (num / den): compared in exact arithmetic, for values
+// that are rational. d and g carry a factor |c|, so their squares are compared through s instead:
+// the test uses the doubles of the exact parameter, good to 2 ulp, and allows for that.
 void ExpectValues(const CollideResult& result, const Fraction& s) {
   ASSERT_TRUE(result.exit_travel && result.signed_distance && result.exit_point);
   const double length = result.interior_difference.norm();
@@ -46,8 +46,8 @@ void ExpectValues(const CollideResult& result, const Fraction& s) {
     EXPECT_LE(result.exit_travel->error,
               1e-12 * result.exit_travel->condition * std::abs(result.exit_travel->value));
   }
-  const Eigen::Vector3d exit = (1.0 - RatioToDouble(s.numerator, s.denominator)) *
-                               result.interior_difference;
+  const Eigen::Vector3d exit =
+      (1.0 - RatioToDouble(s.numerator, s.denominator)) * result.interior_difference;
   EXPECT_LE((*result.exit_point - exit).norm(), result.exit_point_error + 1e-11);
 }
 
@@ -201,9 +201,9 @@ TEST(Collide, IdenticalBodiesAndDeepContainment) {
   const ConvexPolyhedron box = MustBuild(Box({100, 100, 100}));
   const ConvexPolyhedron pebble = MustBuild(Placed(RoundBody(30, {1, 1, 1}, 4), 1e-3));
   for (const Search search : kProven) {
-    EXPECT_EQ(Collide(box, pebble, MustPose(Eigen::Matrix3d::Identity(), {3, 4, 5}), Ask(search))
-                  .verdict,
-              Verdict::kOverlap);
+    EXPECT_EQ(
+        Collide(box, pebble, MustPose(Eigen::Matrix3d::Identity(), {3, 4, 5}), Ask(search)).verdict,
+        Verdict::kOverlap);
   }
 }
 
@@ -214,9 +214,9 @@ TEST(Collide, BoxesOneUlpApartTouchingAndOneUlpInto) {
     double at;
     Verdict verdict;
   };
-  for (const Case& c : {Case{std::nextafter(contact, 3.0), Verdict::kSeparate},
-                        Case{contact, Verdict::kTouch},
-                        Case{std::nextafter(contact, 1.0), Verdict::kOverlap}}) {
+  for (const Case& c :
+       {Case{std::nextafter(contact, 3.0), Verdict::kSeparate}, Case{contact, Verdict::kTouch},
+        Case{std::nextafter(contact, 1.0), Verdict::kOverlap}}) {
     for (int axis = 0; axis < 3; ++axis) {
       // Face on face, edge on edge (shifted to the rim) and vertex on vertex.
       for (const double second : {0.25, 2.0}) {
@@ -272,8 +272,8 @@ TEST(Collide, PublishedSearchAnswersLikeThePaper) {
   EXPECT_EQ(apart.verdict, Verdict::kSeparate);
   EXPECT_EQ(apart.tier, Tier::kNone);
   EXPECT_EQ(apart.certificate.kind, CertificateKind::kNone);
-  const CollideResult inside =
-      Collide(box, box, MustPose(Eigen::Matrix3d::Identity(), {0.5, 0.25, 0}), Ask(Search::kPublished));
+  const CollideResult inside = Collide(
+      box, box, MustPose(Eigen::Matrix3d::Identity(), {0.5, 0.25, 0}), Ask(Search::kPublished));
   EXPECT_EQ(inside.verdict, Verdict::kOverlap);
 }
 
@@ -344,8 +344,7 @@ TEST(Collide, LargerBodiesAgreeAcrossSearchesAtEveryGap) {
             Collide(p, q, MustPose(rotation, 0.3 * direction), Ask(Search::kPortal));
         // c is not along t exactly, so move along c: the exit travel says where contact is.
         const Eigen::Vector3d along = start.interior_difference.normalized();
-        const Eigen::Vector3d contact =
-            0.3 * direction + start.exit_travel->value * along;
+        const Eigen::Vector3d contact = 0.3 * direction + start.exit_travel->value * along;
         for (const double gap : {-1e-1, -1e-6, -1e-12, 1e-12, 1e-6, 1e-1}) {
           const Eigen::Vector3d t = contact - gap * along;
           const Verdict expected = gap > 0.0 ? Verdict::kSeparate : Verdict::kOverlap;

@@ -47,15 +47,15 @@ TEST(SearchFaceVertex, EndsAtAFaceOfItsClassThatNoNeighbourBeats) {
     QueryState state(x);
     const BruteForceExit truth =
         FindExitByBruteForce(x.p, x.q, x.pose, state.m.interior_p(), state.m.interior_q());
-    const FaceOfM found = SearchFaceVertex(state.m, HeuristicFirstFace(state.m), -1, false, &state.log);
+    const FaceOfM found =
+        SearchFaceVertex(state.m, HeuristicFirstFace(state.m), -1, false, &state.log);
     ASSERT_EQ(found.face_class, FaceClass::kFaceVertex);
     const Fraction s = Parameter(x, state, found);
     ExpectSignedDistance(state, found, s);
     EXPECT_GE(Compare(s, truth.face_vertex), 0) << "better than the best of its class";
     const int f = found.feature_p.index;
     for (const int e : x.p.face_edges(f)) {
-      const FaceOfM next =
-          FaceVertexFace(state.m, x.p.face_across(e, f), -1, &state.counts[0]);
+      const FaceOfM next = FaceVertexFace(state.m, x.p.face_across(e, f), -1, &state.counts[0]);
       EXPECT_LE(next.signed_distance, found.signed_distance);
     }
     maxima += Compare(s, truth.face_vertex) == 0;
@@ -88,7 +88,8 @@ TEST(SearchEdgeEdge, FindsOnlyTrueFacesAndNeverLosesGround) {
     QueryState state(x);
     const BruteForceExit truth =
         FindExitByBruteForce(x.p, x.q, x.pose, state.m.interior_p(), state.m.interior_q());
-    const FaceOfM start = SearchFaceVertex(state.m, HeuristicFirstFace(state.m), -1, false, &state.log);
+    const FaceOfM start =
+        SearchFaceVertex(state.m, HeuristicFirstFace(state.m), -1, false, &state.log);
     std::optional<FaceOfM> best_of_class;
     const FaceOfM found = SearchEdgeEdge(state.m, start, false, &state.log, &best_of_class);
     EXPECT_GE(found.signed_distance, start.signed_distance);
@@ -104,8 +105,8 @@ TEST(SearchEdgeEdge, FindsOnlyTrueFacesAndNeverLosesGround) {
 }
 
 TEST(ArcTest, AgreesWithTheSupportingFeatures) {
-  // An edge pair is a face of M exactly when its common normal has these edges, and nothing more, as
-  // supporting features. General bodies only: on ties the strict test may go either way.
+  // An edge pair is a face of M exactly when its common normal has these edges, and nothing more,
+  // as supporting features. General bodies only: on ties the strict test may go either way.
   for (const Placement& x : SmallPlacements(/*seed=*/24, 120)) {
     if (x.name != "round bodies") continue;
     QueryState state(x);
@@ -153,7 +154,8 @@ TEST(SearchPortal, ProposesTheExitFacetInDoubles) {
     CollideResult measured;
     MeasureExit(&signs, proposal.triangle, &measured);
     const double g = RatioToDouble(truth.parameter.denominator - truth.parameter.numerator,
-                                   truth.parameter.denominator) * state.m.Unscale(state.m.c_norm());
+                                   truth.parameter.denominator) *
+                     state.m.Unscale(state.m.c_norm());
     right += std::abs(measured.exit_travel->value - g) < 1e-10;
   }
   EXPECT_GE(right, total - total / 100);  // measured: all of 200

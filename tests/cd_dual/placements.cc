@@ -67,8 +67,9 @@ std::vector<Placement> SmallPlacements(std::uint64_t seed, int count) {
                               MustPose(AxisRotation(&random), LatticePoint(&random, 5))});
         break;
       case 1:
-        placements.push_back({"turned boxes", box(), box(),
-                              MustPose(random.Rotation(), 5.0 * random.Unit() * random.Direction())});
+        placements.push_back(
+            {"turned boxes", box(), box(),
+             MustPose(random.Rotation(), 5.0 * random.Unit() * random.Direction())});
         break;
       case 2:
         placements.push_back({"lattice tetrahedra", MustBuild(LatticeTetrahedron(&random, 4)),
@@ -93,11 +94,12 @@ std::vector<Placement> SmallPlacements(std::uint64_t seed, int count) {
         break;
       default: {
         const auto round = [&] {
-          return MustBuild(RoundBody(random.Int(8, 14), Eigen::Vector3d(random.Int(1, 4), 1, 1),
-                                     random.Bits()));
+          return MustBuild(
+              RoundBody(random.Int(8, 14), Eigen::Vector3d(random.Int(1, 4), 1, 1), random.Bits()));
         };
-        placements.push_back({"round bodies", round(), round(),
-                              MustPose(random.Rotation(), 5.0 * random.Unit() * random.Direction())});
+        placements.push_back(
+            {"round bodies", round(), round(),
+             MustPose(random.Rotation(), 5.0 * random.Unit() * random.Direction())});
       }
     }
   }

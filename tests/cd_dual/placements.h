@@ -22,8 +22,8 @@ RelativePose MustPose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& tr
 // One of the 24 rotations that permute the axes: exact.
 Eigen::Matrix3d AxisRotation(Random* random);
 
-// Small bodies in contact and near it: boxes and prisms on a lattice (parallel faces, aligned edges,
-// exact touches), tetrahedra of small integers, round bodies at any rotation.
+// Small bodies in contact and near it: boxes and prisms on a lattice (parallel faces, aligned
+// edges, exact touches), tetrahedra of small integers, round bodies at any rotation.
 std::vector<Placement> SmallPlacements(std::uint64_t seed, int count);
 
 }  // namespace touchstone::testing

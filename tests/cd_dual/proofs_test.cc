@@ -28,7 +28,8 @@ TEST(Signs, FilterNeverContradictsExactSigns) {
     Eigen::Vector3d t(random.Int(-4, 4), random.Int(-4, 4), random.Int(-4, 4));
     for (int axis = 0; axis < 3; ++axis) t[axis] *= 1.0 + random.Int(-3, 3) * 0x1p-52;
     const ConvexPolyhedron body_p = MustBuild(p), body_q = MustBuild(q);
-    const RelativePose pose = MustPose(i % 3 ? AxisRotation(&random) : random.Rotation(), scale * t);
+    const RelativePose pose =
+        MustPose(i % 3 ? AxisRotation(&random) : random.Rotation(), scale * t);
     MinkowskiDifference m(body_p, body_q, pose);
     ChooseInteriorDifference(&m);
     Signs in_doubles(m, Certainty::kFloat), exact(m, Certainty::kExact);
@@ -44,8 +45,8 @@ TEST(Signs, FilterNeverContradictsExactSigns) {
         const ExactDifference& big = exact.exact();
         ASSERT_EQ(*sign, Determinant(big.Point(x), big.Point(y), big.Point(z)).sign());
       }
-      const Eigen::Vector3d n = k % 2 ? Eigen::Vector3d(random.Int(-2, 2), random.Int(-2, 2), 1)
-                                      : random.Direction();
+      const Eigen::Vector3d n =
+          k % 2 ? Eigen::Vector3d(random.Int(-2, 2), random.Int(-2, 2), 1) : random.Direction();
       ++asked;
       if (const auto sign = in_doubles.AlongDirection(n, x)) {
         ++settled;
@@ -102,8 +103,8 @@ TEST(ProveSeparatingDirection, TiesCostNoScanWhereTheMarginSuffices) {
 }
 
 TEST(ProveSeparatingDirection, DeclinesAFalseSupportThatWouldSeparate) {
-  // Some vertices of M are on the far side though the direction does not separate: the proof must not
-  // believe that one of them is extreme.
+  // Some vertices of M are on the far side though the direction does not separate: the proof must
+  // not believe that one of them is extreme.
   int tried = 0;
   for (const Placement& x : SmallPlacements(/*seed=*/33, 300)) {
     MinkowskiDifference m(x.p, x.q, x.pose);
@@ -165,7 +166,8 @@ TEST(ProveExitFace, DeclinesEveryTriangleButTheExit) {
       std::array<VertexPair, 3> triangle = exit;
       for (int i = 0; i < 3; ++i) {
         if (random.Int(0, 2)) continue;
-        triangle[i] = {random.Int(0, x.p.vertex_count() - 1), random.Int(0, x.q.vertex_count() - 1)};
+        triangle[i] = {random.Int(0, x.p.vertex_count() - 1),
+                       random.Int(0, x.q.vertex_count() - 1)};
       }
       if (random.Int(0, 3) == 0) std::swap(triangle[0], triangle[1]);  // turned inside out
       const auto face = ProveExitFace(&signs, triangle);
@@ -224,7 +226,9 @@ TEST(FindExactExit, FindsTheExitFromAnyStart) {
       }
       PhaseCounts counts;
       const ExactExit exit = FindExactExit(&signs, start, &counts);
-      const int expected = truth.verdict == Verdict::kOverlap ? 1 : truth.verdict == Verdict::kTouch ? 0 : -1;
+      const int expected = truth.verdict == Verdict::kOverlap ? 1
+                           : truth.verdict == Verdict::kTouch ? 0
+                                                              : -1;
       EXPECT_EQ(exit.side_of_origin, expected) << x.name;
       EXPECT_TRUE(ProveExitFace(&signs, exit.triangle)) << x.name;
     }
