@@ -28,6 +28,7 @@ class MinkowskiDifference {
  public:
   MinkowskiDifference(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
                       const RelativePose& pose);
+  MinkowskiDifference(const ConvexPolyhedron&, const ConvexPolyhedron&, RelativePose&&) = delete;
 
   const ConvexPolyhedron& p() const { return p_; }
   const ConvexPolyhedron& q() const { return q_; }

@@ -92,7 +92,8 @@ TEST(ProveSeparatingDirection, TiesCostNoScanWhereTheMarginSuffices) {
   // 1/sqrt(3), shows that rounding hides less than 1e-13 of the size.
   const ConvexPolyhedron box = MustBuild(Box({1, 1, 1}));
   const Eigen::Matrix3d turned = Random(32).Rotation();
-  MinkowskiDifference m(box, box, MustPose(turned, turned * Eigen::Vector3d(0, 0, 3)));
+  const RelativePose pose = MustPose(turned, turned * Eigen::Vector3d(0, 0, 3));
+  MinkowskiDifference m(box, box, pose);
   Signs signs(m, Certainty::kExact);
   PhaseCounts counts;
   const Eigen::Vector3d n = turned * Eigen::Vector3d(0, 0, 1);
@@ -137,7 +138,8 @@ TEST(SupportingFeature, DeclinesAVertexWithinAFacetThatTheBodyRisesAbove) {
   // polygons, both neighbours are level along every direction across the edge.
   for (const ConvexPolyhedron& cube :
        {MustBuild(SubdividedCube(3, false)), MustBuild(CubeWithSplitEdges(2))}) {
-    MinkowskiDifference m(cube, cube, RelativePose());
+    const RelativePose pose;
+    MinkowskiDifference m(cube, cube, pose);
     Signs signs(m, Certainty::kExact);
     for (int v = 0; v < cube.vertex_count(); ++v) {
       if (cube.is_corner(v)) continue;
