@@ -172,6 +172,8 @@ class Worker {
     switch (options_.depth) {
       case Depth::kProof:
         return {.phase_maxima = false, .construct = false, .twin = false};
+      case Depth::kPhases:
+        return {.phase_maxima = true, .construct = false, .twin = false};
       case Depth::kFull:
         return {.phase_maxima = true, .construct = true, .twin = true};
       case Depth::kMixed:

@@ -57,11 +57,12 @@ enum class EarlyExit { kNever, kAlways, kMixed };
 
 // How far the judge looks at each query.
 enum class Depth {
-  kProof,  // certificates and values in O(m + n); the published pseudocode only where a query
-           // failed
-  kMixed,  // also phase maxima, construction and pseudocode: always for small bodies, else on a
-           // sample
-  kFull,   // everything at every query
+  kProof,   // certificates and values in O(m + n); the published pseudocode only where a query
+            // failed
+  kPhases,  // also the phase maxima, O(mn)
+  kMixed,   // also phase maxima, construction and pseudocode: always for small bodies, else on a
+            // sample
+  kFull,    // everything at every query
 };
 
 struct VerifyOptions {

@@ -40,9 +40,10 @@ EarlyExit ParseEarlyExit(const std::string& word) {
 
 Depth ParseDepth(const std::string& word) {
   if (word == "proof") return Depth::kProof;
+  if (word == "phases") return Depth::kPhases;
   if (word == "mixed") return Depth::kMixed;
   if (word == "full") return Depth::kFull;
-  throw BadInput{"--depth: '" + word + "' is none of proof, mixed, full"};
+  throw BadInput{"--depth: '" + word + "' is none of proof, phases, mixed, full"};
 }
 
 // The suites asked for that can run; says on stderr which cannot.
@@ -153,7 +154,7 @@ void AddVerify(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--depth", arguments->depth,
-                   "how far the judge looks: proof, mixed, or full (slow)")
+                   "how far the judge looks: proof, phases, mixed, or full (slow)")
       ->capture_default_str();
   command->add_option("--cases", arguments->cases, "folder for the case files of failing queries");
   command->add_flag("--coverage", arguments->coverage,
