@@ -58,9 +58,10 @@ void CheckTrace(const JudgeContext& context) {
     last[phase] = step.signed_distance;
   }
   for (int i = 0; i < kPhaseCount; ++i) {
-    const auto phase = static_cast<Phase>(i);  // portal searches visit triangles and leave no trace
-    if (phase == Phase::kPortal || phase == Phase::kExact) continue;
-    if (steps[i] != result.counts[i].faces_visited) {
+    const auto phase = static_cast<Phase>(i);
+    // Portal searches visit triangles, which are not faces: they leave no trace.
+    const bool triangles = phase == Phase::kPortal || phase == Phase::kExact;
+    if (steps[i] != (triangles ? 0 : result.counts[i].faces_visited)) {
       context.Add(FindingKind::kBadCounters, "faces visited and the trace differ in phase " +
                                                  std::string(ToString(static_cast<Phase>(i))));
     }

@@ -277,17 +277,23 @@ TEST_F(JudgeTest, PhasesThatNameNoFaceOfM) {
 }
 
 TEST_F(JudgeTest, BadCounters) {
-  const TraceStep step{Phase::kPortal, FaceClass::kEdgeEdge, {}, {}, 1.0, true};
+  const TraceStep step{Phase::kOverlay, FaceClass::kEdgeEdge, {}, {}, 1.0, true};
   CollideResult result = Good(apart_);
   result.trace = {step};
   EXPECT_THAT(Kinds(apart_, result), UnorderedElementsAre(FindingKind::kBadCounters));
-  result.counts[static_cast<int>(Phase::kPortal)].faces_visited = 1;
+  result.counts[static_cast<int>(Phase::kOverlay)].faces_visited = 1;
   EXPECT_THAT(Kinds(apart_, result), IsEmpty());
   result.trace.push_back(step);
-  result.counts[static_cast<int>(Phase::kPortal)].faces_visited = 2;
+  result.counts[static_cast<int>(Phase::kOverlay)].faces_visited = 2;
   EXPECT_THAT(Kinds(apart_, result), UnorderedElementsAre(FindingKind::kBadCounters));
   result.trace[1].accepted = false;
   EXPECT_THAT(Kinds(apart_, result), IsEmpty());
+  // Portal searches visit triangles: they count and leave no trace.
+  result.counts[static_cast<int>(Phase::kPortal)].faces_visited = 7;
+  EXPECT_THAT(Kinds(apart_, result), IsEmpty());
+  result.trace.back().phase = Phase::kPortal;
+  result.counts[static_cast<int>(Phase::kOverlay)].faces_visited = 1;
+  EXPECT_THAT(Kinds(apart_, result), UnorderedElementsAre(FindingKind::kBadCounters));
 
   result = Good(apart_);
   result.counts[0].support_calls = -1;
