@@ -89,7 +89,8 @@ void CheckPhaseAndTier(const JudgeContext& context) {
   }
   if (result.phase == Phase::kOverlay && search != Search::kPhased) bad("the overlay is kPhased's");
   // kPhased turns to the portal where parallel features leave its phases nothing to move to.
-  if (result.phase == Phase::kPortal && search == Search::kPublished) bad("kPublished has no portal");
+  if (result.phase == Phase::kPortal && search == Search::kPublished)
+    bad("kPublished has no portal");
 }
 
 void CheckTermination(const JudgeContext& context, bool proven) {
