@@ -144,30 +144,32 @@ class Reader {
     if (keyword == "finding") {
       if (words_.size() < 2) Fail("'finding' takes a kind");
       header.finding = words_[1];
-      for (std::size_t k = 2; k < words_.size(); ++k)
+      for (std::size_t k = 2; k < words_.size(); ++k) {
         header.detail += (k == 2 ? "" : " ") + words_[k];
+      }
       return;
     }
     ExpectWords(2);
     const std::string& word = words_[1];
-    if (keyword == "suite")
+    if (keyword == "suite") {
       header.suite = word;
-    else if (keyword == "seed")
+    } else if (keyword == "seed") {
       header.seed = Need(ParseInteger<std::uint64_t>(word), word);
-    else if (keyword == "index")
+    } else if (keyword == "index") {
       header.index = Need(ParseInteger<std::uint64_t>(word), word);
-    else if (keyword == "search")
+    } else if (keyword == "search") {
       header.search = Need(SearchFromWord(word), word);
-    else if (keyword == "certainty")
+    } else if (keyword == "certainty") {
       header.certainty = Need(CertaintyFromWord(word), word);
-    else if (keyword == "expected")
+    } else if (keyword == "expected") {
       header.expected = Need(VerdictFromWord(word), word);
-    else if (keyword == "early-exit" && (word == "yes" || word == "no"))
+    } else if (keyword == "early-exit" && (word == "yes" || word == "no")) {
       header.early_exit = word == "yes";
-    else if (keyword == "early-exit")
+    } else if (keyword == "early-exit") {
       Fail("'early-exit' takes yes or no");
-    else
+    } else {
       Fail("unknown keyword '" + keyword + "'");
+    }
   }
 
   WorldPose ReadRows() {

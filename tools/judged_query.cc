@@ -58,6 +58,12 @@ exact::ExactBody ExactBodies::Get(const ConvexPolyhedron& body) {
   return *slot;
 }
 
+JudgeDepth DepthForOneQuery(const PlacedPair& pair) {
+  constexpr long kConstruct = 4000;
+  const long product = static_cast<long>(pair.p.vertex_count()) * pair.q.vertex_count();
+  return {.phase_maxima = true, .construct = product <= kConstruct, .twin = true};
+}
+
 JudgedQuery Ask(const PlacedPair& pair, const CollideOptions& options) {
   JudgedQuery query;
   const Clock::time_point start = Clock::now();

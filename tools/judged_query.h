@@ -27,6 +27,9 @@ struct JudgeDepth {
   bool twin = true;          // kPublished: replay the pseudocode exactly, even where nothing failed
 };
 
+// Everything, and M built whole where one can wait for it: a product of vertex counts up to 4000.
+JudgeDepth DepthForOneQuery(const PlacedPair& pair);
+
 // One query, asked of the core and judged by the exact half.
 struct JudgedQuery {
   CollideResult result;

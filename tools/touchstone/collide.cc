@@ -13,9 +13,6 @@
 namespace touchstone {
 namespace {
 
-// Small enough for M to be built whole while one waits.
-constexpr long kConstruct = 4000;
-
 struct Arguments {
   std::string p, q;
   std::vector<std::string> pose;
@@ -69,13 +66,11 @@ int RunCollide(const Arguments& arguments) {
                                .certainty = ParseCertainty(arguments.certainty),
                                .early_exit = arguments.early_exit,
                                .trace = arguments.trace};
-  const long product = static_cast<long>(pair.p.vertex_count()) * pair.q.vertex_count();
-  const bool construct = product <= kConstruct;
+  const JudgeDepth depth = DepthForOneQuery(pair);
   ExactBodies bodies;
   JudgedQuery query =
       Ask(pair, options);  // warms the caches, so that the time shown is the search's
-  query = arguments.judge ? AskAndJudge(pair, options, {.construct = construct}, bodies)
-                          : Ask(pair, options);
+  query = arguments.judge ? AskAndJudge(pair, options, depth, bodies) : Ask(pair, options);
 
   if (arguments.json) {
     Json json = {{"p",
@@ -94,7 +89,7 @@ int RunCollide(const Arguments& arguments) {
     if (arguments.judge) {
       json["judge"] = {{"findings", ToJson(query.findings)},
                        {"rounding_findings", ToJson(query.rounding_findings)},
-                       {"constructed", construct},
+                       {"constructed", depth.construct},
                        {"judge_ns", query.judge_ns}};
     }
     std::cout << json.dump(2) << '\n';
@@ -105,7 +100,7 @@ int RunCollide(const Arguments& arguments) {
               << " vertices, " << pair.q.face_count() << " faces\n"
               << "search           " << arguments.search << ", " << arguments.certainty << '\n';
     PrintResult(std::cout, query.result);
-    PrintJudgement(arguments, query, construct);
+    PrintJudgement(arguments, query, depth.construct);
     std::cout << "time             " << ShortDouble(query.search_ns) << " ns";
     if (arguments.judge) std::cout << ", judge " << ShortDouble(query.judge_ns) << " ns";
     std::cout << '\n';

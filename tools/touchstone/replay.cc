@@ -10,9 +10,6 @@
 namespace touchstone {
 namespace {
 
-// Small enough for M to be built whole while one waits.
-constexpr long kConstruct = 4000;
-
 struct Arguments {
   std::string path;
   std::string search;  // empty: the case's
@@ -28,10 +25,8 @@ int RunReplay(const Arguments& arguments) {
       .certainty = query.certainty,
       .early_exit = query.early_exit,
       .trace = arguments.trace};
-  const long product = static_cast<long>(query.pair.p.vertex_count()) * query.pair.q.vertex_count();
   ExactBodies bodies;
-  const JudgedQuery judged =
-      AskAndJudge(query.pair, options, {.construct = product <= kConstruct}, bodies);
+  const JudgedQuery judged = AskAndJudge(query.pair, options, DepthForOneQuery(query.pair), bodies);
   if (arguments.json) {
     Json json = {{"case", arguments.path},
                  {"suite", query.suite},
