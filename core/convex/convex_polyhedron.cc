@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "touchstone/core/base/orientation.h"
 #include "touchstone/core/convex/convexity_internal.h"
 #include "touchstone/core/convex/interior_points_internal.h"
-#include "touchstone/core/convex/orientation_internal.h"
 
 namespace touchstone {
 namespace {
@@ -70,7 +70,7 @@ Status CheckRings(const ConvexPolyhedron& body) {
 }
 
 // Planes, bends at edges, facets and normals.
-Status CheckPlanes(const ConvexPolyhedron& body, const internal::Orientation& orientation) {
+Status CheckPlanes(const ConvexPolyhedron& body, const Orientation& orientation) {
   for (int f = 0; f < body.face_count(); ++f) {
     const std::array<int, 3>& plane = body.face_plane(f);
     for (int v : body.face(f)) {
@@ -110,7 +110,7 @@ bool ConvexPolyhedron::is_corner(int v) const {
 Status ConvexPolyhedron::FindValidationError() const {
   if (Status status = CheckFaces(*this); !status.ok()) return status;
   if (Status status = CheckRings(*this); !status.ok()) return status;
-  const internal::Orientation orientation(data_->vertices, data_->max_coordinate);
+  const Orientation orientation(data_->vertices, data_->max_coordinate);
   if (Status status = CheckPlanes(*this, orientation); !status.ok()) return status;
   for (int i = 0; i < 2; ++i) {
     if (!internal::IsStrictlyInside(orientation, *data_, interior_point(i))) {

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "touchstone/core/base/orientation.h"
 #include "touchstone/core/convex/convex_polyhedron.h"
 #include "touchstone/core/convex/convexity_internal.h"
 #include "touchstone/core/convex/corner_margins_internal.h"
 #include "touchstone/core/convex/face_planes_internal.h"
 #include "touchstone/core/convex/interior_points_internal.h"
-#include "touchstone/core/convex/orientation_internal.h"
 #include "touchstone/core/convex/topology_internal.h"
 
 namespace touchstone {
@@ -163,7 +163,7 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
   data->second_moments = SecondMoments(vertices);
 
   if (Status status = internal::BuildTopology(data.get()); !status.ok()) return status;
-  const internal::Orientation orientation(data->vertices, data->max_coordinate);
+  const Orientation orientation(data->vertices, data->max_coordinate);
   if (Status status = internal::CheckFullDimensional(orientation, *data); !status.ok()) {
     return status;
   }
@@ -177,7 +177,7 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
   if (Status status = internal::FindInteriorPoints(orientation, data.get()); !status.ok()) {
     return status;
   }
-  const internal::ScaledPoint o = orientation.Scale(data->interior[0]);
+  const ScaledPoint o = orientation.Scale(data->interior[0]);
   if (Status status = internal::CheckSingleWinding(orientation, *data, o); !status.ok()) {
     return status;
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <climits>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -87,36 +86,6 @@ Plane BeginAtWidestAngle(const Orientation& orientation, const Plane& plane) {
     if (squared > longest) longest = squared, widest = i;
   }
   return {plane[widest], plane[(widest + 1) % 3], plane[(widest + 2) % 3]};
-}
-
-// The unit normal, each entry off by at most 2^-46.
-//
-// u, v are rounded differences, off by 1 unit (2^-52) of each entry. An entry of u x v then passes
-// 4 roundings per term: it is off by 4.01 units of |u||v| at most, the vector by sqrt(3) times
-// that. A unit vector made of it is off by 7 units of |u||v| / |u x v|, and normalising adds 4
-// more. With the sine of the angle above 1/8 that is below 60 units. Thinner triangles, and those
-// so small that squares of their cross product underflow, get their cross product exactly.
-Vector3d UnitNormal(const Orientation& orientation, const Plane& plane) {
-  const Vector3d u = Difference(orientation, plane[1], plane[0]);
-  const Vector3d v = Difference(orientation, plane[2], plane[0]);
-  const Vector3d cross = Cross(u, v);
-  const double squared = SquaredLength(cross);
-  if (squared > 0x1p-900 && 64.0 * squared > SquaredLength(u) * SquaredLength(v)) {
-    return cross / std::sqrt(squared);
-  }
-  const DyadicVector origin = ToDyadic(orientation.point(plane[0]).exact);
-  const DyadicVector exact =
-      touchstone::Cross(ToDyadic(orientation.point(plane[1]).exact) - origin,
-                        ToDyadic(orientation.point(plane[2]).exact) - origin);
-  std::array<int, 3> exponents;
-  Vector3d fractions;
-  for (int i = 0; i < 3; ++i) fractions[i] = exact[i].ToScaledDouble(&exponents[i]);
-  int greatest = INT_MIN;
-  for (int i = 0; i < 3; ++i) {
-    if (fractions[i] != 0.0) greatest = std::max(greatest, exponents[i]);
-  }
-  for (int i = 0; i < 3; ++i) fractions[i] = std::ldexp(fractions[i], exponents[i] - greatest);
-  return fractions / std::sqrt(SquaredLength(fractions));
 }
 
 // Whether a comes before b in the order of coordinates. Along a convex loop this order rises once
@@ -203,7 +172,7 @@ Status BuildFacePlanes(const Orientation& orientation, ConvexPolyhedronData* dat
       if (Status status = checker.CheckConvex(axis); !status.ok()) return status;
     }
     data->face_planes[f] = BeginAtWidestAngle(orientation, plane);
-    data->face_normals[f] = UnitNormal(orientation, data->face_planes[f]);
+    data->face_normals[f] = orientation.UnitNormal(data->face_planes[f]);
     (*axes)[f] = axis;
   }
   return {};

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "touchstone/core/convex/orientation_internal.h"
+#include "touchstone/core/base/orientation.h"
 
+#include <algorithm>
+#include <climits>
 #include <cmath>
 
 #include "touchstone/core/base/dyadic.h"
 
-namespace touchstone::internal {
+namespace touchstone {
 namespace {
 
 // Relative roundings are counted in units of 2^-52, which holds in every rounding mode.
@@ -19,6 +21,13 @@ constexpr double kSideError = 9.0 * 0x1p-52;
 // Each of the two terms passes 4 roundings: two differences, a product, a difference.
 constexpr double kTurnError = 5.0 * 0x1p-52;
 constexpr double kUnderflow = 0x1p-1000;
+
+// Written out: the order of operations is part of the bounds.
+Eigen::Vector3d Cross(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+double SquaredLength(const Eigen::Vector3d& u) { return u[0] * u[0] + u[1] * u[1] + u[2] * u[2]; }
 
 }  // namespace
 
@@ -72,4 +81,35 @@ int Orientation::ExactTurn(int a, int b, int c, int axis) const {
   return (difference(b, i) * difference(c, j) - difference(b, j) * difference(c, i)).sign();
 }
 
-}  // namespace touchstone::internal
+bool Orientation::IsCollinear(int a, int b, int c) const {
+  return ExactTurn(a, b, c, 0) == 0 && ExactTurn(a, b, c, 1) == 0 && ExactTurn(a, b, c, 2) == 0;
+}
+
+// u, v are rounded differences, off by 1 unit (2^-52) of each entry. An entry of u x v then passes
+// 4 roundings per term: it is off by 4.01 units of |u||v| at most, the vector by sqrt(3) times
+// that. A unit vector made of it is off by 7 units of |u||v| / |u x v|, and normalising adds 4
+// more. With the sine of the angle above 1/8 that is below 60 units. Thinner triangles, and those
+// so small that squares of their cross product underflow, get their cross product exactly.
+Eigen::Vector3d Orientation::UnitNormal(const std::array<int, 3>& plane) const {
+  const Eigen::Vector3d u = point(plane[1]).scaled - point(plane[0]).scaled;
+  const Eigen::Vector3d v = point(plane[2]).scaled - point(plane[0]).scaled;
+  const Eigen::Vector3d cross = Cross(u, v);
+  const double squared = SquaredLength(cross);
+  if (squared > 0x1p-900 && 64.0 * squared > SquaredLength(u) * SquaredLength(v)) {
+    return cross / std::sqrt(squared);
+  }
+  const DyadicVector origin = ToDyadic(point(plane[0]).exact);
+  const DyadicVector exact = touchstone::Cross(ToDyadic(point(plane[1]).exact) - origin,
+                                               ToDyadic(point(plane[2]).exact) - origin);
+  std::array<int, 3> exponents;
+  Eigen::Vector3d fractions;
+  for (int i = 0; i < 3; ++i) fractions[i] = exact[i].ToScaledDouble(&exponents[i]);
+  int greatest = INT_MIN;
+  for (int i = 0; i < 3; ++i) {
+    if (fractions[i] != 0.0) greatest = std::max(greatest, exponents[i]);
+  }
+  for (int i = 0; i < 3; ++i) fractions[i] = std::ldexp(fractions[i], exponents[i] - greatest);
+  return fractions / std::sqrt(SquaredLength(fractions));
+}
+
+}  // namespace touchstone

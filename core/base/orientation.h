@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#ifndef TOUCHSTONE_CORE_CONVEX_ORIENTATION_INTERNAL_H_
-#define TOUCHSTONE_CORE_CONVEX_ORIENTATION_INTERNAL_H_
+#ifndef TOUCHSTONE_CORE_BASE_ORIENTATION_H_
+#define TOUCHSTONE_CORE_BASE_ORIENTATION_H_
 
 #include <Eigen/Core>
 #include <array>
 #include <span>
 #include <vector>
 
-namespace touchstone::internal {
+namespace touchstone {
 
 // A point taken exactly, and its coordinates over the body's power of two, below 1 in magnitude;
 // the latter may be off by 2^-1022 where the scaling underflows.
@@ -50,11 +50,19 @@ class Orientation {
   // The sign of component `axis` of (b - a) x (c - a): the turn a, b, c seen along that axis.
   int ExactTurn(int a, int b, int c, int axis) const;
 
+  // Whether three vertices lie on one line, exactly.
+  bool IsCollinear(int a, int b, int c) const;
+
+  // The normal of the plane, on the side that its vertices run counterclockwise seen from: of unit
+  // length, each entry within 2^-46 of the exact one's. Requires vertices that are not collinear,
+  // the first of them best where the angle is widest.
+  Eigen::Vector3d UnitNormal(const std::array<int, 3>& plane) const;
+
  private:
   double scale_;
   std::vector<ScaledPoint> points_;
 };
 
-}  // namespace touchstone::internal
+}  // namespace touchstone
 
-#endif  // TOUCHSTONE_CORE_CONVEX_ORIENTATION_INTERNAL_H_
+#endif  // TOUCHSTONE_CORE_BASE_ORIENTATION_H_

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "touchstone/core/base/dyadic.h"
-#include "touchstone/core/convex/orientation_internal.h"
+#include "touchstone/core/base/orientation.h"
 #include "touchstone/tests/testing/random.h"
 
-namespace touchstone::internal {
+namespace touchstone {
 namespace {
 
 using Eigen::Vector3d;
@@ -93,4 +93,4 @@ TEST(Orientation, TinyCoordinatesBesideLargeOnes) {
 }
 
 }  // namespace
-}  // namespace touchstone::internal
+}  // namespace touchstone
