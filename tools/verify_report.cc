@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <optional>
 #include <ostream>
 #include <string>
 
+#include "touchstone/tools/table.h"
 #include "touchstone/tools/words.h"
 
 namespace touchstone {
@@ -56,35 +56,6 @@ Json CoverageJson(const SearchStats& stats) {
                                     {"count", count}});
   }
   return json;
-}
-
-// A table whose columns are as wide as what they hold; the first is flushed left.
-class Table {
- public:
-  void Row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
-
-  void Print(std::ostream& out) const {
-    std::vector<std::size_t> widths(rows_.front().size(), 0);
-    for (const auto& row : rows_) {
-      for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
-    }
-    for (const auto& row : rows_) {
-      for (std::size_t k = 0; k < row.size(); ++k) {
-        const std::string padding(widths[k] - row[k].size(), ' ');
-        out << (k == 0 ? row[k] + padding : "  " + padding + row[k]);
-      }
-      out << '\n';
-    }
-  }
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
-
-std::string Fixed(double value, int digits) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
 }
 
 std::string Percent(std::uint64_t part, std::uint64_t whole) {

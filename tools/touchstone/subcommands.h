@@ -24,7 +24,9 @@ struct BadInput {
 
 // One subcommand a file. Each registers its arguments; when it is the one that was asked for, it
 // runs and leaves the exit code.
+void AddBench(CLI::App& app, int& exit_code);
 void AddCollide(CLI::App& app, int& exit_code);
+void AddEngines(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
 void AddSuites(CLI::App& app, int& exit_code);
 void AddVerify(CLI::App& app, int& exit_code);

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+//
+// Our own searches, asked for the verdict alone.
+#include "touchstone/core/cd_dual/cd_dual.h"
+#include "touchstone/tools/engines/registry.h"
+
+namespace touchstone {
+namespace {
+
+struct Shape : EngineShape {
+  explicit Shape(const ConvexPolyhedron& b) : body(b) {}
+  ConvexPolyhedron body;
+};
+
+class Pair : public EnginePair {
+ public:
+  Pair(const Shape& p, const Shape& q, const RelativePose& pose, const CollideOptions& options)
+      : p_(p), q_(q), pose_(pose), options_(options) {}
+
+  Verdict Ask(EngineCache* /*cache*/) const override {
+    return Collide(p_.body, q_.body, pose_, options_).verdict;
+  }
+
+  EngineValues Measure() const override {
+    CollideOptions options = options_;
+    options.early_exit = false;
+    const CollideResult result = Collide(p_.body, q_.body, pose_, options);
+    EngineValues values;
+    if (result.exit_travel) values.exit_travel = result.exit_travel->value;
+    return values;
+  }
+
+ private:
+  const Shape& p_;
+  const Shape& q_;
+  RelativePose pose_;
+  const CollideOptions& options_;
+};
+
+class TouchstoneEngine : public Engine {
+ public:
+  explicit TouchstoneEngine(const CollideOptions& options) : options_(options) {
+    options_.early_exit = true;
+  }
+
+  std::unique_ptr<EngineShape> Prepare(const ConvexPolyhedron& body) const override {
+    return std::make_unique<Shape>(body);
+  }
+  std::unique_ptr<EnginePair> Place(const EngineShape& p, const EngineShape& q,
+                                    const RelativePose& pose) const override {
+    return std::make_unique<Pair>(static_cast<const Shape&>(p), static_cast<const Shape&>(q), pose,
+                                  options_);
+  }
+
+ private:
+  CollideOptions options_;
+};
+
+template <Search kSearch, Certainty kCertainty>
+EngineDescription Describe(const char* name, const char* summary, bool proven) {
+  EngineDescription engine;
+  engine.name = name;
+  engine.summary = summary;
+  engine.proven = proven;
+  engine.make = [](double) -> std::unique_ptr<Engine> {
+    return std::make_unique<TouchstoneEngine>(
+        CollideOptions{.search = kSearch, .certainty = kCertainty});
+  };
+  return engine;
+}
+
+}  // namespace
+
+void DescribeTouchstone(std::vector<EngineDescription>& engines) {
+  engines.push_back(Describe<Search::kPortal, Certainty::kExact>(
+      "portal", "our default: portal search, always exact", true));
+  engines.push_back(Describe<Search::kPortal, Certainty::kFloat>(
+      "portal-float", "the same in doubles alone: proven or undecided", true));
+  engines.push_back(Describe<Search::kPhased, Certainty::kExact>(
+      "phased", "the paper's three phases, made correct", true));
+  engines.push_back(Describe<Search::kPublished, Certainty::kExact>(
+      "published", "CD-Dual to the letter; its verdict is not proven", false));
+}
+
+}  // namespace touchstone
