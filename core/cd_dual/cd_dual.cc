@@ -17,21 +17,24 @@ namespace {
 class Query {
  public:
   Query(const ConvexPolyhedron& p, const ConvexPolyhedron& q, const RelativePose& pose,
-        const CollideOptions& options)
-      : m_(p, q, pose),
+        const CollideOptions& options, CollideResult* result)
+      : result_(*result),
+        m_(p, q, pose),
         signs_(m_, options.certainty),
         options_(options),
         log_{&result_.counts, options.trace ? &result_.trace : nullptr} {}
 
-  CollideResult Run() {
+  void Run() {
     const bool apart = ChooseInteriorDifference(&m_);
     if (!apart && options_.early_exit && options_.search != Search::kPublished &&
         FindCoincidence()) {
-      return Finish();
+      Finish();
+      return;
     }
     if (options_.search == Search::kPublished) {
       RunPublished();
-      return Finish();
+      Finish();
+      return;
     }
     RunProven();
     // In doubles, a ray through an edge of M leaves signs open that another ray may not meet.
@@ -42,17 +45,16 @@ class Query {
       result_ = CollideResult{};
       RunProven();
     }
-    return Finish();
+    Finish();
   }
 
  private:
-  CollideResult Finish() {
+  void Finish() {
     result_.interior_p = m_.interior_p();
     result_.interior_q = m_.interior_q();
     result_.interior_difference = m_.c() / m_.scale();
     result_.exact_signs = signs_.exact_count();
     for (TraceStep& step : result_.trace) step.signed_distance *= m_.scale();
-    return std::move(result_);
   }
 
   // c = o proves overlap outright, for any choice of c.
@@ -137,6 +139,10 @@ class Query {
   // Proves what a search proposes, or finds what is true instead.
   void Settle(const Proposal& proposal) {
     using Kind = Proposal::Kind;
+    if (proposal.kind == Kind::kApartByBounds) {
+      result_.phase = Phase::kStart;
+      return ConcludeApart(proposal.direction, Tier::kBound);
+    }
     if (proposal.kind == Kind::kSeparatingDirection) {
       if (ConcludeSeparate(proposal.direction, proposal.support)) return;
     } else if (proposal.kind == Kind::kEnclosed) {
@@ -173,11 +179,15 @@ class Query {
   bool ConcludeSeparate(const Eigen::Vector3d& direction, VertexPair support) {
     const auto tier = ProveSeparatingDirection(&signs_, direction, support);
     if (!tier) return false;
+    ConcludeApart(direction, *tier);
+    return true;
+  }
+
+  void ConcludeApart(const Eigen::Vector3d& direction, Tier tier) {
     result_.verdict = Verdict::kSeparate;
-    result_.tier = *tier;
+    result_.tier = tier;
     result_.termination = Termination::kEarlyExit;
     result_.certificate = {CertificateKind::kSeparatingDirection, direction, {}};
-    return true;
   }
 
   bool ConcludeEnclosed(const std::array<VertexPair, 3>& triangle) {
@@ -229,7 +239,7 @@ class Query {
     ConcludeSeparate(normal, m_.Support(normal, triangle[0], &log_.of(Phase::kPortal)));
   }
 
-  CollideResult result_;
+  CollideResult& result_;
   MinkowskiDifference m_;
   Signs signs_;
   const CollideOptions& options_;
@@ -240,7 +250,9 @@ class Query {
 
 CollideResult Collide(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
                       const RelativePose& pose, const CollideOptions& options) {
-  return Query(p, q, pose, options).Run();
+  CollideResult result;
+  Query(p, q, pose, options, &result).Run();
+  return result;
 }
 
 }  // namespace touchstone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/cd_dual/certify.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -99,6 +100,13 @@ int FaceByIdentity(const Signs& signs, const FacetPlane& plane, Body body, int v
 std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d& direction,
                                              VertexPair support) {
   const MinkowskiDifference& m = signs->difference();
+  const Eigen::Vector3d toward_q = -m.DirectionToQ(direction);
+  const SupportTable& table_p = m.p().support_table();
+  const SupportTable& table_q = m.q().support_table();
+  long steps = 0;
+  const auto peak_p = table_p.Climb(table_p.CornerOfVertex(support.p), direction, &steps);
+  const auto peak_q = table_q.Climb(table_q.CornerOfVertex(support.q), toward_q, &steps);
+  support = {table_p.corner(peak_p.corner).vertex, table_q.corner(peak_q.corner).vertex};
   const double length = direction.lpNorm<1>();
   const Eigen::Vector3d w = m.Point(support);
   const double error =
@@ -106,17 +114,35 @@ std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d
   const double height = direction.dot(w) + error;
   if (!(height < 0.0)) return std::nullopt;
   // Entries of R are at most 1 + 1e-6 in magnitude: a coordinate of Rᵀn is off by 3.01 u |n|_1, and
-  // by the rotation's own error.
+  // by the rotation's own error. That is a part of 2^-30 of |Rᵀn|_1 for any rotation error but a
+  // world pose's of enormous coordinates.
   const double turned_error = length * (3.1 * kRoundingUnit + m.pose().rotation_error());
-  const double excess = Excess(m.p(), support.p, direction, 0.0) +
-                        Excess(m.q(), support.q, -m.DirectionToQ(direction), turned_error);
+  const bool q_certain = peak_q.certain && turned_error <= 0x1p-32 * length;
+  if (peak_p.certain && q_certain) return Tier::kBound;
+  const double excess = (peak_p.certain ? 0.0 : Excess(m.p(), support.p, direction, 0.0)) +
+                        (q_certain ? 0.0 : Excess(m.q(), support.q, toward_q, turned_error));
   if (height + 1.01 * m.scale() * excess < 0.0) return Tier::kBound;
   if (AllBelow(m, direction)) return Tier::kScan;
   return std::nullopt;
 }
 
+// All four signs at once with one bound for points no longer than the pair's size: what a proof of
+// an overlap costs nearly always.
+bool IsClearlyEnclosing(const MinkowskiDifference& m, const std::array<VertexPair, 3>& triangle) {
+  const Eigen::Vector3d x = m.Point(triangle[0]), y = m.Point(triangle[1]),
+                        z = m.Point(triangle[2]);
+  // As in Signs::Determinant, with every length at most sqrt(3) (size + E) =: L.
+  const double e = m.coordinate_error(), l = 1.7320508075688774 * (m.size() + e);
+  const double error =
+      1.02 * l * l * (6.0 * kRoundingUnit * l + 3.0 * 1.7320508075688774 * e) + 0x1p-1000;
+  const Eigen::Vector3d xy = x.cross(y), yz = y.cross(z), zx = z.cross(x);
+  const Eigen::Vector3d& c = m.c();
+  return z.dot(xy) > error && c.dot(xy) < -error && c.dot(yz) < -error && c.dot(zx) < -error;
+}
+
 std::optional<Tier> ProveEnclosingTetrahedron(Signs* signs,
                                               const std::array<VertexPair, 3>& triangle) {
+  if (IsClearlyEnclosing(signs->difference(), triangle)) return Tier::kBound;
   const auto& [x, y, z] = triangle;
   const long exact_before = signs->exact_count();
   // With r = o - c and ai = vi - c, r = sum mu_i a_i by Cramer: mu_3 ~ det[a1 a2 r] = -det[v1 v2

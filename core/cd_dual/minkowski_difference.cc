@@ -3,20 +3,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "touchstone/core/convex/support.h"
 
 namespace touchstone {
 namespace {
-
-Eigen::Matrix3d Cofactors(const Eigen::Matrix3d& r) {
-  Eigen::Matrix3d cofactors;
-  cofactors.row(0) = r.row(1).cross(r.row(2));
-  cofactors.row(1) = r.row(2).cross(r.row(0));
-  cofactors.row(2) = r.row(0).cross(r.row(1));
-  return cofactors;
-}
 
 // A row of R has length at most 1 + 1e-6, so |(R x)_i| <= (1 + 1e-6) sqrt(3) max |x_j| < 1.75 max.
 constexpr double kRowFactor = 1.75;
@@ -25,12 +19,12 @@ constexpr double kRowFactor = 1.75;
 
 MinkowskiDifference::MinkowskiDifference(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
                                          const RelativePose& pose)
-    : p_(p), q_(q), pose_(pose), cofactors_(Cofactors(pose.rotation())) {
+    : p_(p), q_(q), pose_(pose) {
   const double size = p.max_coordinate() + kRowFactor * q.max_coordinate() +
                       pose.translation().cwiseAbs().maxCoeff();
-  int exponent = 0;
-  std::frexp(size, &exponent);
-  scale_ = std::ldexp(1.0, -exponent);
+  // 2^-e for a size in [2^(e-1), 2^e): sizes are normal numbers within 1e-100 and 1e101.
+  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52;
+  scale_ = std::bit_cast<double>((2045 - exponent) << 52);
   size_ = size * scale_;
   // R b + t: three products and three sums, each term passing at most four roundings, then one more
   // for a - (...): (1 + u)^5 - 1 < 5.01 u of the sum of absolute terms, which is at most `size`.
@@ -54,6 +48,12 @@ Eigen::Vector3d MinkowskiDifference::Difference(VertexPair to, VertexPair from,
                      3.01 * pose_.rotation_error() * q_max) +
            0x1p-1000;
   return scale_ * (in_p - pose_.rotation() * in_q);
+}
+
+Eigen::Vector3d MinkowskiDifference::NormalToP(const Eigen::Vector3d& in_q) const {
+  const Eigen::Matrix3d& r = pose_.rotation();
+  return {r.row(1).cross(r.row(2)).dot(in_q), r.row(2).cross(r.row(0)).dot(in_q),
+          r.row(0).cross(r.row(1)).dot(in_q)};
 }
 
 VertexPair MinkowskiDifference::Support(const Eigen::Vector3d& direction, VertexPair hint,

@@ -48,7 +48,7 @@ class MinkowskiDifference {
 
   // From Q's frame to P's: edges by R, normals by the cofactors of R.
   Eigen::Vector3d EdgeToP(const Eigen::Vector3d& in_q) const { return pose_.rotation() * in_q; }
-  Eigen::Vector3d NormalToP(const Eigen::Vector3d& in_q) const { return cofactors_ * in_q; }
+  Eigen::Vector3d NormalToP(const Eigen::Vector3d& in_q) const;
   // A direction n of P's frame as Q sees it: n.(R x) = (Rᵀn).x.
   Eigen::Vector3d DirectionToQ(const Eigen::Vector3d& in_p) const {
     return pose_.rotation().transpose() * in_p;
@@ -83,7 +83,6 @@ class MinkowskiDifference {
   const ConvexPolyhedron& p_;
   const ConvexPolyhedron& q_;
   const RelativePose& pose_;
-  Eigen::Matrix3d cofactors_;
   double scale_;
   double size_;
   double coordinate_error_;

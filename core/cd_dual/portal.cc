@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/cd_dual/portal.h"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <utility>
 
+#include "touchstone/core/base/vector_clones.h"
+#include "touchstone/core/cd_dual/ellipsoid_model.h"
 #include "touchstone/core/cd_dual/ray_frame.h"
 
 namespace touchstone {
@@ -12,76 +13,108 @@ namespace {
 
 constexpr int kMaxRounds = 128;
 
+struct Point2 {
+  double x = 0.0, y = 0.0;
+};
+
+// A symmetric 2 x 2 matrix.
+struct Symmetric2 {
+  double xx = 1.0, xy = 0.0, yy = 1.0;
+};
+TOUCHSTONE_INLINE Point2 operator*(const Symmetric2& a, const Point2& v) {
+  return {a.xx * v.x + a.xy * v.y, a.xy * v.x + a.yy * v.y};
+}
+TOUCHSTONE_INLINE Symmetric2 Inverse(const Symmetric2& a) {
+  const double s = 1.0 / (a.xx * a.yy - a.xy * a.xy);
+  return {s * a.yy, -s * a.xy, s * a.xx};
+}
+
 class PortalSearch {
  public:
-  PortalSearch(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts)
+  TOUCHSTONE_INLINE PortalSearch(const MinkowskiDifference& m, bool early_exit, Proposal* proposal)
       : m_(m),
         frame_(m),
         early_exit_(early_exit),
-        counts_(counts),
-        tolerance_(4.0 * m.coordinate_error()) {}
+        tolerance_(4.0 * m.coordinate_error()),
+        proposal_(*proposal) {}
 
-  Proposal Run() {
-    if (Approach() && (Surround() || Discover())) Refine();
-    return std::move(proposal_);
+  TOUCHSTONE_INLINE void Run(const EllipsoidModel& model, const Eigen::Vector3d& normal,
+                             double reach_p, double reach_q, PhaseCounts* counts) {
+    if (Approach(model, normal, reach_p, reach_q) && (Surround() || Discover())) Refine();
+    counts->support_calls += supports_;
+    counts->climb_steps += climb_steps_;
+    counts->faces_visited += triangles_;
   }
 
  private:
-  // The support along (nx, ny, nz); false when it shows o outside, which ends an early-exit search.
-  bool Probe(double nx, double ny, double nz, VertexPair hint, FramePoint* out) {
-    *out = frame_.Support(nx, ny, nz, hint, counts_);
-    if (!early_exit_) return true;
-    // Only worth a proof when the distance stands out from the rounding of the point.
-    const double height = nx * out->x + ny * out->y + nz * out->z;
-    if (height >= -tolerance_ * (std::abs(nx) + std::abs(ny) + std::abs(nz))) return true;
+  // The support along (nx, ny, nz), or nearly; false when it shows o outside, which ends an
+  // early-exit search.
+  TOUCHSTONE_INLINE bool Probe(double nx, double ny, double nz, FramePoint* out) {
+    *out = frame_.Look(nx, ny, nz);
+    ++supports_;
+    if (!early_exit_ || !IsOutside(nx, ny, nz, *out)) return true;
     proposal_.kind = Proposal::Kind::kSeparatingDirection;
     proposal_.direction = frame_.Direction(nx, ny, nz);
-    proposal_.support = out->pair;
+    proposal_.support = frame_.Vertices(*out);
     return false;
   }
 
-  // Takes M for the sum of two ellipsoids with the bodies' second moments: goes to where that sum
-  // would have its exit, then makes one Newton step with the shadow of the support there as
-  // gradient. Leaves the better of the two supports in base_, its direction in (base_nx_, base_ny_)
-  // and the inverse of the model's Hessian in step_.
-  bool Approach() {
-    const Eigen::Matrix3d sum = frame_.moments_p() + frame_.moments_q();
-    Eigen::Vector2d n = -sum.topLeftCorner<2, 2>().inverse() * sum.topRightCorner<2, 1>();
-    const Eigen::Vector3d normal(n[0], n[1], 1.0);
-    const double reach_p = std::sqrt(normal.dot(frame_.moments_p() * normal));
-    const double reach_q = std::sqrt(normal.dot(frame_.moments_q() * normal));
-    const Eigen::Matrix3d hessian = frame_.moments_p() / reach_p + frame_.moments_q() / reach_q;
-    step_ = hessian.topLeftCorner<2, 2>().inverse();
-    if (!n.allFinite() || !step_.allFinite()) {  // bodies too flat for the model
-      n.setZero();
-      step_.setIdentity();
-    }
+  // Only worth a proof when the distance stands out from the rounding of the point.
+  TOUCHSTONE_INLINE bool IsOutside(double nx, double ny, double nz, const FramePoint& w) const {
+    const double height = nx * w.x + ny * w.y + nz * w.z;
+    return height < -tolerance_ * (std::abs(nx) + std::abs(ny) + std::abs(nz));
+  }
 
+  // Starts where the model has its exit, then makes one Newton step with the shadow of the support
+  // there as gradient. Leaves the better of the two supports in base_, its direction in base_n_
+  // and the inverse of the model's Hessian in step_.
+  TOUCHSTONE_INLINE bool Approach(const EllipsoidModel& model, const Eigen::Vector3d& normal,
+                                  double reach_p, double reach_q) {
+    const auto along = [&](const Eigen::Vector3d& v, int i) {
+      return v[0] * frame_.in_p()(0, i) + v[1] * frame_.in_p()(1, i) + v[2] * frame_.in_p()(2, i);
+    };
+    const double up = 1.0 / along(normal, 2);
+    Point2 n{up * along(normal, 0), up * along(normal, 1)};
+    // The Hessian: second moments over reaches, seen along the ray.
+    const Symmetric3 h = model.Sum(1.0 / reach_p, 1.0 / reach_q);
+    const auto times = [&](int i) -> Eigen::Vector3d {
+      const double x = frame_.in_p()(0, i), y = frame_.in_p()(1, i), z = frame_.in_p()(2, i);
+      return {h.xx * x + h.xy * y + h.xz * z, h.xy * x + h.yy * y + h.yz * z,
+              h.xz * x + h.yz * y + h.zz * z};
+    };
+    const Eigen::Vector3d hx = times(0), hy = times(1);
+    const double unit = 1.0 / std::abs(up);  // the reaches are along a normal of this height
+    step_ = Inverse({unit * along(hx, 0), unit * along(hx, 1), unit * along(hy, 1)});
+    if (!(up > 0.0) ||
+        !std::isfinite(n.x + n.y + step_.xx + step_.xy + step_.yy)) {  // too flat for the model
+      n = {};
+      step_ = {};
+    }
     FramePoint first;
-    if (!Probe(n[0], n[1], 1.0, {}, &first)) return false;
-    const Eigen::Vector2d next = n - step_ * Eigen::Vector2d(first.x, first.y);
+    if (!Probe(n.x, n.y, 1.0, &first)) return false;
+    const Point2 move = step_ * Point2{first.x, first.y};
+    const Point2 next{n.x - move.x, n.y - move.y};
     FramePoint second;
-    if (!Probe(next[0], next[1], 1.0, {}, &second)) return false;
+    if (!Probe(next.x, next.y, 1.0, &second)) return false;
     const bool improved = Squared(second) < Squared(first);
     base_ = improved ? second : first;
     base_n_ = improved ? next : n;
     return true;
   }
 
-  static double Squared(const FramePoint& w) { return w.x * w.x + w.y * w.y; }
+  static TOUCHSTONE_INLINE double Squared(const FramePoint& w) { return w.x * w.x + w.y * w.y; }
 
   // Two side supports, meant to fall where the base's shadow would after a third of a turn either
   // way: together a triangle around the axis, as small as the base is near.
-  bool Surround() {
-    const double kCos = -0.5, kSin = 0.8660254037844386;
-    const Eigen::Vector2d g(base_.x, base_.y);
-    const Eigen::Vector2d left(kCos * g[0] - kSin * g[1], kSin * g[0] + kCos * g[1]);
-    const Eigen::Vector2d right(kCos * g[0] + kSin * g[1], -kSin * g[0] + kCos * g[1]);
-    const Eigen::Vector2d n1 = base_n_ + step_ * (left - g), n2 = base_n_ + step_ * (right - g);
+  TOUCHSTONE_INLINE bool Surround() {
+    const double kCos = -1.5, kSin = 0.8660254037844386;  // cosine less one
+    const Point2 across = step_ * Point2{-kSin * base_.y, kSin * base_.x};
+    const Point2 back = step_ * Point2{kCos * base_.x, kCos * base_.y};
     x_[0] = base_;
-    if (!Probe(n1[0], n1[1], 1.0, {}, &x_[1])) return stopped_ = true, false;
-    if (!Probe(n2[0], n2[1], 1.0, {}, &x_[2])) return stopped_ = true, false;
-    return Turn(x_[0], x_[1]) > 0.0 && Turn(x_[1], x_[2]) > 0.0 && Turn(x_[2], x_[0]) > 0.0;
+    stopped_ = !Probe(base_n_.x + back.x + across.x, base_n_.y + back.y + across.y, 1.0, &x_[1]) ||
+               !Probe(base_n_.x + back.x - across.x, base_n_.y + back.y - across.y, 1.0, &x_[2]);
+    return !stopped_ && Turn(x_[0], x_[1]) > 0.0 && Turn(x_[1], x_[2]) > 0.0 &&
+           Turn(x_[2], x_[0]) > 0.0;
   }
 
   // Finds a triangle around the axis from any base: two points with the axis to their left, then
@@ -95,13 +128,13 @@ class PortalSearch {
     } else if (turn2 > 0.0) {
       x_[0] = x_[2];
       x_[1] = base_;
-    } else if (!Probe(-base_.y, base_.x, 0.0, {}, &x_[1])) {
+    } else if (!Probe(-base_.y, base_.x, 0.0, &x_[1])) {
       return false;
     }
     for (int round = 0; round < kMaxRounds; ++round) {
-      const double za = x_[0].z - frame_.c_height(), zb = x_[1].z - frame_.c_height();
+      const double za = x_[0].z + m_.c_norm(), zb = x_[1].z + m_.c_norm();
       const double nx = x_[0].y * zb - za * x_[1].y, ny = za * x_[1].x - x_[0].x * zb;
-      if (!Probe(nx, ny, Turn(x_[0], x_[1]), {}, &x_[2])) return false;
+      if (!Probe(nx, ny, Turn(x_[0], x_[1]), &x_[2])) return false;
       if (Turn(x_[2], x_[0]) < 0.0) {
         x_[1] = x_[2];
       } else if (Turn(x_[1], x_[2]) < 0.0) {
@@ -114,25 +147,23 @@ class PortalSearch {
   }
 
   // Pushes the triangle outward until nothing lies beyond its plane.
-  void Refine() {
+  TOUCHSTONE_INLINE void Refine() {
     for (int round = 0; round < kMaxRounds; ++round) {
-      ++counts_->faces_visited;
-      proposal_.triangle = {x_[0].pair, x_[1].pair, x_[2].pair};
+      ++triangles_;
       const double ux = x_[1].x - x_[0].x, uy = x_[1].y - x_[0].y, uz = x_[1].z - x_[0].z;
       const double vx = x_[2].x - x_[0].x, vy = x_[2].y - x_[0].y, vz = x_[2].z - x_[0].z;
       const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
       const double height = nx * x_[0].x + ny * x_[0].y + nz * x_[0].z;
       if (early_exit_ && height > tolerance_ * (std::abs(nx) + std::abs(ny) + std::abs(nz))) {
-        proposal_.kind = Proposal::Kind::kEnclosed;
-        return;
+        return Propose(Proposal::Kind::kEnclosed);
       }
       FramePoint beyond;
-      if (!Probe(nx, ny, nz, {}, &beyond)) return;
-      // Nothing further out than rounding can see: the facet is found, up to a proof.
-      if (beyond.pair == x_[0].pair || beyond.pair == x_[1].pair || beyond.pair == x_[2].pair ||
-          !(nx * (beyond.x - x_[0].x) + ny * (beyond.y - x_[0].y) + nz * (beyond.z - x_[0].z) >
-            0.0)) {
-        break;
+      if (!Probe(nx, ny, nz, &beyond)) return;
+      if (!IsBeyond(nx, ny, nz, beyond)) {
+        // The look may have missed what a climb finds. If that lies no further out than rounding
+        // can see, the facet is found, up to a proof.
+        beyond = frame_.Climb(nx, ny, nz, beyond, &climb_steps_);
+        if (!IsBeyond(nx, ny, nz, beyond)) break;
       }
       const double t0 = Turn(beyond, x_[0]), t1 = Turn(beyond, x_[1]), t2 = Turn(beyond, x_[2]);
       if (t0 >= 0.0) {
@@ -141,26 +172,62 @@ class PortalSearch {
         x_[t2 >= 0.0 ? 1 : 0] = beyond;
       }
     }
-    proposal_.kind = Proposal::Kind::kExitFacet;
+    Propose(Proposal::Kind::kExitFacet);
+  }
+
+  TOUCHSTONE_INLINE bool IsBeyond(double nx, double ny, double nz, const FramePoint& w) const {
+    for (const FramePoint& x : x_) {
+      if (w.p == x.p && w.q == x.q) return false;
+    }
+    return nx * (w.x - x_[0].x) + ny * (w.y - x_[0].y) + nz * (w.z - x_[0].z) > 0.0;
+  }
+
+  void Propose(Proposal::Kind kind) {
+    proposal_.kind = kind;
+    for (int i = 0; i < 3; ++i) proposal_.triangle[i] = frame_.Vertices(x_[i]);
   }
 
   const MinkowskiDifference& m_;
   const RayFrame frame_;
   const bool early_exit_;
-  PhaseCounts* counts_;
   const double tolerance_;
+  Proposal& proposal_;
   FramePoint base_;
-  Eigen::Vector2d base_n_;
-  Eigen::Matrix2d step_;
+  Point2 base_n_;
+  Symmetric2 step_;
   std::array<FramePoint, 3> x_;
   bool stopped_ = false;
-  Proposal proposal_;
+  int supports_ = 0, triangles_ = 0;
+  long climb_steps_ = 0;
 };
 
 }  // namespace
 
+TOUCHSTONE_VECTOR_CLONES
+void SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts,
+                  Proposal* proposal) {
+  const bool is_central = m.interior_p() == 0 && m.interior_q() == 0;
+  const bool bounds_serve = early_exit && is_central;
+  if (bounds_serve && EllipsoidModel::BallsAreApart(m)) {
+    proposal->kind = Proposal::Kind::kApartByBounds;
+    proposal->direction = -m.c();
+    return;
+  }
+  const EllipsoidModel model(m);
+  const Eigen::Vector3d normal = model.ExitNormal();
+  const double reach_p = model.ReachP(normal), reach_q = model.ReachQ(normal);
+  if (bounds_serve && model.IsApart(normal, reach_p, reach_q)) {
+    proposal->kind = Proposal::Kind::kApartByBounds;
+    proposal->direction = normal;
+    return;
+  }
+  PortalSearch(m, early_exit, proposal).Run(model, normal, reach_p, reach_q, counts);
+}
+
 Proposal SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts) {
-  return PortalSearch(m, early_exit, counts).Run();
+  Proposal proposal;
+  SearchPortal(m, early_exit, counts, &proposal);
+  return proposal;
 }
 
 }  // namespace touchstone

@@ -11,9 +11,10 @@
 
 namespace touchstone {
 
-// What a search in doubles proposes. Nothing here is proven.
+// What a search in doubles proposes. Nothing here is proven, but for kApartByBounds.
 struct Proposal {
   enum class Kind {
+    kApartByBounds,        // `direction` separates: the bodies' balls or ellipsoids prove it
     kSeparatingDirection,  // `direction` with support `support` has o on its outer side
     kEnclosed,             // the ray crosses `triangle` beyond o
     kExitFacet,  // nothing of M lies beyond the plane of `triangle`, which the ray crosses

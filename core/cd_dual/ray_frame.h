@@ -3,20 +3,24 @@
 #define TOUCHSTONE_CORE_CD_DUAL_RAY_FRAME_H_
 
 #include <Eigen/Core>
+#include <cmath>
 
+#include "touchstone/core/base/lanes.h"
 #include "touchstone/core/cd_dual/minkowski_difference.h"
 
 namespace touchstone {
 
 // A vertex of M in the ray's frame: the ray from c through o is the upward z axis, o at height 0.
 struct FramePoint {
-  VertexPair pair;
+  int p = 0, q = 0;  // corners (support_table.h) of P and Q
   double x = 0.0, y = 0.0, z = 0.0;
 };
 
 // 2-D cross product of the shadows: positive when the ray's axis lies to the left of a -> b, and
 // equal to det[a - c, b - c, o - c] over |o - c|.
-inline double Turn(const FramePoint& a, const FramePoint& b) { return a.x * b.y - a.y * b.x; }
+TOUCHSTONE_INLINE double Turn(const FramePoint& a, const FramePoint& b) {
+  return a.x * b.y - a.y * b.x;
+}
 
 // M seen along the ray. Where the ray leaves M is a problem of two variables: over the directions
 // N = (nx, ny, 1), the height at which the plane that supports M along N meets the axis is
@@ -26,29 +30,71 @@ inline double Turn(const FramePoint& a, const FramePoint& b) { return a.x * b.y 
 // Directions and points are rounded: what this says is a proposal.
 class RayFrame {
  public:
-  explicit RayFrame(const MinkowskiDifference& m);
+  TOUCHSTONE_INLINE explicit RayFrame(const MinkowskiDifference& m)
+      : table_p_(m.p().support_table()), table_q_(m.q().support_table()), scale_(m.scale()) {
+    const double z[3] = {-m.c()[0] / m.c_norm(), -m.c()[1] / m.c_norm(), -m.c()[2] / m.c_norm()};
+    // An orthonormal pair across z (Duff et al. 2017), without a branch on its axis.
+    const double sign = std::copysign(1.0, z[2]);
+    const double a = -1.0 / (sign + z[2]), b = z[0] * z[1] * a;
+    in_p_ << 1.0 + sign * z[0] * z[0] * a, b, z[0],  //
+        sign * b, sign + z[1] * z[1] * a, z[1],      //
+        -sign * z[0], -z[1], z[2];
+    const Eigen::Matrix3d& r = m.pose().rotation();
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        in_q_(i, j) = r(0, i) * in_p_(0, j) + r(1, i) * in_p_(1, j) + r(2, i) * in_p_(2, j);
+      }
+      const Eigen::Vector3d& t = m.pose().translation();
+      offset_[i] = in_p_(0, i) * t[0] + in_p_(1, i) * t[1] + in_p_(2, i) * t[2];
+    }
+  }
 
-  // The vertex of M that is extreme along (nx, ny, nz). `hint` starts the climbs.
-  FramePoint Support(double nx, double ny, double nz, VertexPair hint, PhaseCounts* counts) const;
+  // A vertex of M that is extreme along (nx, ny, nz), or nearly: one look at each body's table.
+  TOUCHSTONE_INLINE FramePoint Look(double nx, double ny, double nz) const {
+    const auto along = [&](const Eigen::Matrix3d& axes, int i) {
+      return nx * axes(i, 0) + ny * axes(i, 1) + nz * axes(i, 2);
+    };
+    const int p = table_p_.Look(along(in_p_, 0), along(in_p_, 1), along(in_p_, 2));
+    const int q = table_q_.Look(-along(in_q_, 0), -along(in_q_, 1), -along(in_q_, 2));
+    return Point(p, q);
+  }
+
+  TOUCHSTONE_INLINE FramePoint Point(int p, int q) const {
+    const SupportTable::Corner& a = table_p_.corner(p);
+    const SupportTable::Corner& b = table_q_.corner(q);
+    const auto coordinate = [&](int i) {
+      return scale_ * ((in_p_(0, i) * a.x + in_p_(1, i) * a.y + in_p_(2, i) * a.z) -
+                       (in_q_(0, i) * b.x + in_q_(1, i) * b.y + in_q_(2, i) * b.z) - offset_[i]);
+    };
+    return {p, q, coordinate(0), coordinate(1), coordinate(2)};
+  }
+
+  // From `start` on, by climbs that no neighbour beats.
+  FramePoint Climb(double nx, double ny, double nz, const FramePoint& start, long* steps) const {
+    const Eigen::Vector3d n(nx, ny, nz);
+    return Point(table_p_.Climb(start.p, in_p_ * n, steps).corner,
+                 table_q_.Climb(start.q, -(in_q_ * n), steps).corner);
+  }
+
+  VertexPair Vertices(const FramePoint& point) const {
+    return {table_p_.corner(point.p).vertex, table_q_.corner(point.q).vertex};
+  }
 
   // The direction in P's frame.
   Eigen::Vector3d Direction(double nx, double ny, double nz) const {
-    return nx * axes_.col(0) + ny * axes_.col(1) + nz * axes_.col(2);
+    return in_p_ * Eigen::Vector3d(nx, ny, nz);
   }
 
-  // Height of c: minus |c|.
-  double c_height() const { return -m_.c_norm(); }
-
-  // The second moments of P and of Q in this frame, scaled.
-  const Eigen::Matrix3d& moments_p() const { return moments_p_; }
-  const Eigen::Matrix3d& moments_q() const { return moments_q_; }
+  const Eigen::Matrix3d& in_p() const { return in_p_; }
+  const Eigen::Matrix3d& in_q() const { return in_q_; }
 
  private:
-  const MinkowskiDifference& m_;
-  Eigen::Matrix3d axes_;       // columns: the frame's axes in P
-  Eigen::Matrix3d axes_in_q_;  // Rᵀ axes
-  Eigen::Vector3d offset_;     // axesᵀ t
-  Eigen::Matrix3d moments_p_, moments_q_;
+  const SupportTable& table_p_;
+  const SupportTable& table_q_;
+  const double scale_;
+  Eigen::Matrix3d in_p_;    // columns: the frame's axes in P
+  Eigen::Matrix3d in_q_;    // the same seen from Q: Rᵀ in_p_
+  Eigen::Vector3d offset_;  // in_p_ᵀ t
 };
 
 }  // namespace touchstone

@@ -105,7 +105,7 @@ struct Certificate {
 
 // Where the decision was made.
 enum class Phase {
-  kStart,       // before any search: c = o
+  kStart,       // before any search: c = o, or the bodies' balls or ellipsoids are apart
   kFaceVertex,  // SEARCH-FV
   kVertexFace,  // SEARCH-VF
   kEdgeEdge,    // SEARCH-EE

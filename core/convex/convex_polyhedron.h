@@ -83,10 +83,9 @@ class ConvexPolyhedron {
   // off its symmetries.
   const Eigen::Vector3d& interior_point(int i) const { return data_->interior[i]; }
 
-  // Three times the covariance of the vertices: sqrt(n.Cn) is about how far the body reaches along
-  // a unit n from its middle, exact for points spread over a sphere. A guide for searches, no
-  // bound.
-  const Eigen::Matrix3d& second_moments() const { return data_->second_moments; }
+  // An ellipsoid and a ball around interior_point(0) that hold the body: a bound for proofs and a
+  // guide for searches.
+  const BoundingEllipsoid& bounding_ellipsoid() const { return data_->bounding_ellipsoid; }
 
   // max over vertices of the largest absolute coordinate: the size that error bounds refer to.
   double max_coordinate() const { return data_->max_coordinate; }

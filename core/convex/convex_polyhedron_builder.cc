@@ -127,19 +127,6 @@ double DiameterBound(std::span<const Vector3d> vertices) {
   return std::sqrt(squared) * (1.0 + 12 * 0x1p-52);
 }
 
-// Three times the covariance. Divided by the count as it goes: no sum leaves the range of a double.
-Eigen::Matrix3d SecondMoments(std::span<const Vector3d> vertices) {
-  const double share = 1.0 / static_cast<double>(vertices.size());
-  Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& vertex : vertices) mean += share * vertex;
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (const Vector3d& vertex : vertices) {
-    const Vector3d x = vertex - mean;
-    moments += (3.0 * share * x) * x.transpose();
-  }
-  return moments;
-}
-
 }  // namespace
 
 StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> vertices,
@@ -160,7 +147,6 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
     data->max_coordinate = std::max(data->max_coordinate, vertex.cwiseAbs().maxCoeff());
   }
   data->diameter_bound = DiameterBound(vertices);
-  data->second_moments = SecondMoments(vertices);
 
   if (Status status = internal::BuildTopology(data.get()); !status.ok()) return status;
   const Orientation orientation(data->vertices, data->max_coordinate);
@@ -181,6 +167,7 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
   if (Status status = internal::CheckSingleWinding(orientation, *data, o); !status.ok()) {
     return status;
   }
+  data->bounding_ellipsoid = BoundVertices(data->vertices, data->interior[0]);
   data->corner_margins = internal::CornerMargins(*data);
   data->support = SupportTable(*data);
   ConvexPolyhedron body(std::move(data));

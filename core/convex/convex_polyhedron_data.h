@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "touchstone/core/convex/bounding_ellipsoid.h"
 #include "touchstone/core/convex/support_table.h"
 
 namespace touchstone {
@@ -28,7 +29,7 @@ struct ConvexPolyhedronData {
   std::vector<Edge> edges;
   std::vector<int> vertex_begin, vertex_neighbors, vertex_edges, vertex_faces;
   std::array<Eigen::Vector3d, 2> interior;
-  Eigen::Matrix3d second_moments = Eigen::Matrix3d::Zero();
+  BoundingEllipsoid bounding_ellipsoid;
   double max_coordinate = 0.0;
   double diameter_bound = 0.0;
   std::vector<double> corner_margins;

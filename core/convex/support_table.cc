@@ -15,16 +15,9 @@ namespace touchstone {
 namespace {
 
 // Chosen by measurement: README.md.
-constexpr int kScanLimit = 12;  // corners: a scan is faster up to here
 constexpr double kCellsPerCorner = 8;
-constexpr int kMaxResolution = 1024;
-// Eight doubles in the compiler's own vector type: a loop over lanes is unrolled before it is
-// vectorised.
-using Lanes = double __attribute__((vector_size(64)));
-using HalfLanes = double __attribute__((vector_size(32)));
+constexpr int kMaxResolution = 2048;
 constexpr long kFillBudget = 8;  // blocks per cell
-constexpr int kScanLanes = 4;
-static_assert(kScanLimit % kScanLanes == 0 && kScanLimit <= 32);
 
 // How the faces meet at a vertex: the number of its edges between facets of different planes. Three
 // or more at a corner, two inside an edge of the body, none inside a facet.
@@ -71,68 +64,45 @@ class CornerGraph {
 
 SupportTable::SupportTable(const ConvexPolyhedronData& data) {
   AddCorners(data);
-  if (static_cast<int>(scan_vertices_.size()) > kScanLimit) {
-    FillCells();
-    scan_vertices_.clear();
-    return;
-  }
-  // Spare lanes repeat the first corner, and the smallest index wins.
-  while (scan_vertices_.size() % kScanLanes != 0) scan_vertices_.push_back(scan_vertices_[0]);
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int v : scan_vertices_) {
-      const Block& block = blocks_[corner_of_vertex_[v]];
-      scan_.push_back(axis == 0 ? block.own_x : axis == 1 ? block.own_y : block.own_z);
-    }
-  }
+  corner_count() <= kScanLimit ? FillScan() : FillCells();
 }
 
 void SupportTable::AddCorners(const ConvexPolyhedronData& data) {
   const CornerGraph graph(data);
   const int n = data.vertex_count();
-  int exponent = 0;
-  std::frexp(data.max_coordinate, &exponent);
-  const double scale = std::ldexp(1.0, -exponent);
-  const Eigen::Vector3d center = scale * data.interior[0];
-  const auto position = [&](int v) -> Eigen::Vector3d { return scale * data.vertices[v] - center; };
-
+  center_ = data.interior[0];
+  double extent = 0.0;
   corner_of_vertex_.assign(n, -1);
-  int place = 0;
+  int block_count = 0;
   for (int v = 0; v < n; ++v) {
     if (!graph.IsCorner(v)) continue;
-    corner_of_vertex_[v] = place;
-    scan_vertices_.push_back(v);
-    place += (graph.bends(v) + kLanes - 1) / kLanes;
+    const Eigen::Vector3d& x = data.vertices[v];
+    extent = std::max(extent, (x - center_).cwiseAbs().maxCoeff());
+    corner_of_vertex_[v] = corner_count();
+    corners_.push_back({x[0], x[1], x[2], v, -1});
+    ++block_count;
   }
-  blocks_.resize(place);
-  for (const int v : scan_vertices_) {
-    const int first = corner_of_vertex_[v];
-    const int block_count = (graph.bends(v) + kLanes - 1) / kLanes;
-    const Eigen::Vector3d own = position(v);
-    for (int i = 0; i < block_count; ++i) {
-      Block& block = blocks_[first + i];
-      std::fill_n(block.x, kLanes, own[0]);
-      std::fill_n(block.y, kLanes, own[1]);
-      std::fill_n(block.z, kLanes, own[2]);
-      std::fill_n(block.link, kLanes, first);
-      block.own_x = own[0];
-      block.own_y = own[1];
-      block.own_z = own[2];
-      block.vertex = v;
-      block.block_count = block_count;
+  // Extents lie within 1e-117 and 1e101.
+  int exponent = 0;
+  std::frexp(extent, &exponent);
+  lane_scale_ = std::ldexp(1.0, -exponent);
+  for (Corner& corner : corners_) {
+    const int spare = graph.bends(corner.vertex) - kOwnNeighbors;
+    if (spare <= 0) continue;
+    corner.more_blocks = block_count;
+    block_count += (spare + kOwnNeighbors - 1) / kOwnNeighbors;
+  }
+  blocks_.resize(block_count);
+  std::vector<int> neighbors;
+  for (int i = 0; i < corner_count(); ++i) {
+    const int v = corners_[i].vertex;
+    neighbors.clear();
+    for (int k = data.vertex_begin[v]; k < data.vertex_begin[v + 1]; ++k) {
+      if (!graph.IsBend(k)) continue;
+      const int w = graph.FollowEdge(k, [&](int between) { corner_of_vertex_[between] = i; });
+      neighbors.push_back(corner_of_vertex_[w]);
     }
-    int count = 0;
-    for (int i = data.vertex_begin[v]; i < data.vertex_begin[v + 1]; ++i) {
-      if (!graph.IsBend(i)) continue;
-      const int w = graph.FollowEdge(i, [&](int between) { corner_of_vertex_[between] = first; });
-      const Eigen::Vector3d p = position(w);
-      Block& block = blocks_[first + count / kLanes];
-      const int lane = count % kLanes;
-      block.x[lane] = p[0];
-      block.y[lane] = p[1];
-      block.z[lane] = p[2];
-      block.link[lane] = corner_of_vertex_[w];
-      ++count;
-    }
+    FillBlocks(i, neighbors);
   }
   // Vertices inside a facet stand for some corner of it.
   std::vector<int> corner_of_facet(data.face_count(), -1);
@@ -149,29 +119,49 @@ void SupportTable::AddCorners(const ConvexPolyhedronData& data) {
   }
 }
 
-// Directions with z >= 0, and those with z < 0, as the square [-1, 1]^2 each: the octahedron
-// |x| + |y| + |z| = sum seen along z is a square with its corners on the axes, and x + y, x - y
-// turn it upright. No branch, no folding. `sum` is positive; rounding may carry x +- y past it by a
-// few units of 2^-52, which the factor below 1 keeps within the last cell.
-std::size_t SupportTable::Cell(double x, double y, double z, double sum) const {
-  const double half = 0.5 * (1.0 - 0x1p-40) * resolution_;
-  const double scale = half / sum;
-  const auto i = static_cast<std::size_t>(std::max(0.0, half + scale * (x + y)));
-  const auto j = static_cast<std::size_t>(std::max(0.0, half + scale * (x - y)));
-  const auto lower = static_cast<std::size_t>(std::bit_cast<std::uint64_t>(z) >> 63);
-  const auto resolution = static_cast<std::size_t>(resolution_);
-  return (lower * resolution + j) * resolution + i;
+void SupportTable::PutLane(Block* block, int lane, int corner) const {
+  const Corner& c = corners_[corner];
+  block->x[lane] = static_cast<float>(lane_scale_ * (c.x - center_[0]));
+  block->y[lane] = static_cast<float>(lane_scale_ * (c.y - center_[1]));
+  block->z[lane] = static_cast<float>(lane_scale_ * (c.z - center_[2]));
+  block->link[lane] = corner;
+}
+
+void SupportTable::FillBlocks(int corner, std::span<const int> neighbors) {
+  const int count = static_cast<int>(neighbors.size());
+  for (int first = 0; first < count; first += kOwnNeighbors) {
+    const int further = first / kOwnNeighbors;
+    Block* block = &blocks_[further == 0 ? corner : corners_[corner].more_blocks + further - 1];
+    PutLane(block, 0, corner);
+    for (int lane = 1; lane < kLaneCount; ++lane) {
+      const int neighbor = first + lane - 1;
+      PutLane(block, lane, neighbors[neighbor < count ? neighbor : first]);
+    }
+    if (further > 0) block->link[0] = (count - first + kOwnNeighbors - 1) / kOwnNeighbors;
+  }
+}
+
+void SupportTable::FillScan() {
+  scan_count_ = (corner_count() + kLaneCount - 1) / kLaneCount;
+  for (int i = 0; i < scan_count_ * kLaneCount; ++i) {
+    PutLane(&scan_[i / kLaneCount], i % kLaneCount, std::min(i, corner_count() - 1));
+  }
 }
 
 void SupportTable::FillCells() {
-  const auto corner_count = static_cast<double>(scan_vertices_.size());
-  resolution_ = static_cast<int>(std::sqrt(0.5 * kCellsPerCorner * corner_count)) + 1;
+  resolution_ = static_cast<int>(std::sqrt(0.5 * kCellsPerCorner * corner_count())) + 1;
   resolution_ = std::min(resolution_, kMaxResolution);
-  cells_.resize(2 * static_cast<std::size_t>(resolution_) * resolution_);
+  half_resolution_ = 0.5F * (1.0F - 0x1p-18F) * static_cast<float>(resolution_);
+  const std::size_t cell_count = 2 * static_cast<std::size_t>(resolution_) * resolution_;
+  const bool narrow = corner_count() <= 0x10000;
+  narrow ? cells_.resize(cell_count) : wide_cells_.resize(cell_count);
+  const auto get = [&](std::size_t cell) -> int {
+    return narrow ? cells_[cell] : wide_cells_[cell];
+  };
   // A cell is only where climbs begin, so its corner need not be extreme. What one cell leaves of
   // its share of looks others may use; together they are linear, however many edges a corner has.
   long budget = static_cast<long>(blocks_.size()), steps = 0;
-  int place = 0;
+  int corner = 0;
   std::size_t cell = 0;
   for (int lower = 0; lower < 2; ++lower) {
     for (int j = 0; j < resolution_; ++j) {
@@ -181,93 +171,110 @@ void SupportTable::FillCells() {
         const double x = 0.5 * (sum + difference), y = 0.5 * (sum - difference);
         const double z = 1.0 - std::abs(x) - std::abs(y);
         // The row before is a better neighbour than the other end of this one.
-        if (i == 0 && j > 0) place = cells_[cell - resolution_];
-        if (budget > 0) place = Climb(place, x, y, lower == 0 ? z : -z, &budget, &steps);
-        cells_[cell] = place;
+        if (i == 0 && j > 0) corner = get(cell - resolution_);
+        if (budget > 0) {
+          corner = ClimbScaled(corner, x, y, lower == 0 ? z : -z, &budget, &steps).corner;
+        }
+        if (narrow) {
+          cells_[cell] = static_cast<std::uint16_t>(corner);
+        } else {
+          wide_cells_[cell] = corner;
+        }
         budget += kFillBudget;
       }
     }
   }
 }
 
-TOUCHSTONE_VECTOR_CLONES
-int SupportTable::Scan(double x, double y, double z) const {
-  // Which corner is the highest is as good as random: a branch on it costs more than all heights.
-  const auto n = static_cast<int>(scan_vertices_.size());
-  const double* xs = scan_.data();
-  const double* ys = xs + n;
-  const double* zs = ys + n;
-  std::array<double, kScanLimit> heights;
-  int filled = 0;
-  do {
-    for (int k = 0; k < kScanLanes; ++k, ++filled) {
-      heights[filled] = x * xs[filled] + y * ys[filled] + z * zs[filled];
-    }
-  } while (filled < n);
-  std::array<double, kScanLanes> top = {heights[0], heights[1], heights[2], heights[3]};
-  for (int i = kScanLanes; i < n; i += kScanLanes) {
-    for (int k = 0; k < kScanLanes; ++k) top[k] = std::max(top[k], heights[i + k]);
-  }
-  const double highest = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
-  unsigned is_highest = 0;
-  for (int i = 0; i < n; ++i) is_highest |= static_cast<unsigned>(heights[i] == highest) << i;
-  return scan_vertices_[std::countr_zero(is_highest)];
+bool SupportTable::Rescale(double* x, double* y, double* z) {
+  const double largest = std::max({std::abs(*x), std::abs(*y), std::abs(*z)});
+  if (!std::isfinite(*x + *y + *z) &&
+      !(std::isfinite(*x) && std::isfinite(*y) && std::isfinite(*z)))
+    return false;
+  if (largest == 0.0) return false;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  *x = std::ldexp(*x, -exponent);
+  *y = std::ldexp(*y, -exponent);
+  *z = std::ldexp(*z, -exponent);
+  return true;
 }
 
-// Ends, because each move strictly raises the height, and the height of a corner is one number: the
-// same doubles in the same order of operations, wherever its coordinates are stored.
+// Over the middle of the body: its rounding refers to the body's extent, not to its distance from
+// the frame's origin.
+double SupportTable::Height(int corner, double x, double y, double z) const {
+  const Corner& c = corners_[corner];
+  return x * (c.x - center_[0]) + y * (c.y - center_[1]) + z * (c.z - center_[2]);
+}
+
+// Ends, because each move strictly raises the height, and the height of a corner is one number.
 TOUCHSTONE_VECTOR_CLONES
-int SupportTable::Climb(int place, double x, double y, double z, long* budget, long* steps) const {
-  const Block* block = &blocks_[place];
-  double height = x * block->own_x + y * block->own_y + z * block->own_z;
+SupportTable::Peak SupportTable::ClimbScaled(int start, double x, double y, double z, long* budget,
+                                             long* steps) const {
+  const auto fx = static_cast<float>(x), fy = static_cast<float>(y), fz = static_cast<float>(z);
+  Peak peak{start, true};
+  double height = Height(start, x, y, z);
   while (*budget > 0) {
-    std::int32_t next = place;
-    const int block_count = block->block_count;
-    *budget -= block_count;
-    for (int i = 0; i < block_count; ++i, ++block) {
-      Lanes xs, ys, zs;
-      std::memcpy(&xs, block->x, sizeof xs);
-      std::memcpy(&ys, block->y, sizeof ys);
-      std::memcpy(&zs, block->z, sizeof zs);
-      const Lanes h = x * xs + y * ys + z * zs;
-      HalfLanes low, high;
-      std::memcpy(&low, &h, sizeof low);
-      std::memcpy(&high, reinterpret_cast<const char*>(&h) + sizeof low, sizeof high);
-      const HalfLanes top = low > high ? low : high;
-      const double highest = std::max(std::max(top[0], top[1]), std::max(top[2], top[3]));
-      if (highest > height) {
-        height = highest;
-        unsigned is_highest = 0;
-        for (int k = 0; k < 8; ++k) is_highest |= static_cast<unsigned>(h[k] == highest) << k;
-        next = block->link[std::countr_zero(is_highest)];
+    int next = peak.corner;
+    double next_height = height;
+    bool certain = true;
+    const Block* block = &blocks_[peak.corner];
+    for (int more = -1; more != 0;) {
+      --*budget;
+      unsigned rivals = RivalLanes(*block, fx, fy, fz);
+      certain = certain && rivals == 0;
+      for (; rivals != 0; rivals &= rivals - 1) {
+        const int rival = block->link[std::countr_zero(rivals)];
+        const double rival_height = Height(rival, x, y, z);
+        if (rival_height > next_height) {
+          next = rival;
+          next_height = rival_height;
+        }
+      }
+      if (more < 0) {
+        const int first = corners_[peak.corner].more_blocks;
+        if (first < 0) break;
+        block = &blocks_[first];
+        more = block->link[0];
+      } else {
+        ++block;
+        --more;
       }
     }
-    if (next == place) break;
-    place = next;
-    block = &blocks_[place];
+    peak.certain = certain;
+    if (next == peak.corner) return peak;
+    peak.corner = next;
+    height = next_height;
     ++*steps;
   }
-  return place;
+  peak.certain = false;
+  return peak;
 }
 
-int SupportTable::Find(const Eigen::Vector3d& direction, int start, long* steps) const {
+SupportTable::Peak SupportTable::Climb(int start, const Eigen::Vector3d& direction,
+                                       long* steps) const {
   double x = direction[0], y = direction[1], z = direction[2];
   double sum = std::abs(x) + std::abs(y) + std::abs(z);
-  if (!(sum > 0x1p-400 && sum < 0x1p400)) {
-    // Very long or short: scale it. Zero, infinite, NaN: any vertex is as good.
-    const double largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
-    if (!direction.allFinite() || largest == 0.0) return blocks_[0].vertex;
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    x = std::ldexp(x, -exponent);
-    y = std::ldexp(y, -exponent);
-    z = std::ldexp(z, -exponent);
+  if (!(sum > 0x1p-1000 && sum < 0x1p1000)) {
+    if (!Rescale(&x, &y, &z)) return {start, false};
     sum = std::abs(x) + std::abs(y) + std::abs(z);
   }
-  if (resolution_ == 0) return Scan(x, y, z);
+  const double scale = 1.0 / sum;
   long unbounded = std::numeric_limits<long>::max();
-  const int place = start >= 0 ? corner_of_vertex_[start] : cells_[Cell(x, y, z, sum)];
-  return blocks_[Climb(place, x, y, z, &unbounded, steps)].vertex;
+  return ClimbScaled(start, x * scale, y * scale, z * scale, &unbounded, steps);
+}
+
+TOUCHSTONE_VECTOR_CLONES
+int SupportTable::Find(const Eigen::Vector3d& direction, int start, long* steps) const {
+  const int corner =
+      start >= 0 ? corner_of_vertex_[start] : Look(direction[0], direction[1], direction[2]);
+  return corners_[Climb(corner, direction, steps).corner].vertex;
+}
+
+std::size_t SupportTable::bytes() const {
+  return sizeof *this + corners_.capacity() * sizeof(Corner) + blocks_.capacity() * sizeof(Block) +
+         cells_.capacity() * sizeof cells_[0] + wide_cells_.capacity() * sizeof wide_cells_[0] +
+         corner_of_vertex_.capacity() * sizeof corner_of_vertex_[0];
 }
 
 }  // namespace touchstone

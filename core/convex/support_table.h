@@ -3,9 +3,16 @@
 #define TOUCHSTONE_CORE_CONVEX_SUPPORT_TABLE_H_
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include "touchstone/core/base/lanes.h"
 
 namespace touchstone {
 
@@ -19,46 +26,151 @@ struct ConvexPolyhedronData;
 // different planes, followed to their ends) generate the body's cone at each corner. So a corner
 // that no neighbour beats is extreme, and there is no plateau to be stuck on.
 //
-// Coordinates are kept relative to an interior point and over a power of two, so that the rounding
-// of a height refers to the body's own extent, and no product overflows.
+// Two ways to ask. `Look` is what searches do: one cell, one block of eight single-precision lanes,
+// no loop, no branch that depends on the answer; nearly always right, never relied upon. `Climb`
+// goes on to a corner that no neighbour beats in doubles, and says whether the lanes alone prove
+// it.
 class SupportTable {
  public:
+  // A corner of the body, as doubles.
+  struct Corner {
+    double x, y, z;
+    std::int32_t vertex;       // of the body
+    std::int32_t more_blocks;  // -1, or the first of its further blocks
+  };
+
   SupportTable() = default;
   // Requires topology, facets and the first interior point. Complexity: O(n).
   explicit SupportTable(const ConvexPolyhedronData& data);
 
-  // The vertex found from `start` (-1: from the table); adds the moves to *steps.
+  int corner_count() const { return static_cast<int>(corners_.size()); }
+  const Corner& corner(int i) const { return corners_[i]; }
+  // The corner that is vertex v, or one near it.
+  int CornerOfVertex(int v) const { return corner_of_vertex_[v]; }
+
+  // A corner that is extreme along (x, y, z), or nearly. Any direction is safe: one that is zero or
+  // not finite gives some corner.
+  TOUCHSTONE_INLINE int Look(double x, double y, double z) const {
+    return LookWith<VectorLanes>(x, y, z);
+  }
+  // The same by plain loops: its twin, equal to the bit.
+  int LookByScalars(double x, double y, double z) const { return LookWith<ScalarLanes>(x, y, z); }
+
+  struct Peak {
+    int corner;
+    // No neighbour of the corner lies level with it or further along, for the direction given and
+    // for every one whose coordinates differ by at most 2^-30 of its 1-norm: then no point of the
+    // body does.
+    bool certain;
+  };
+  // From `start` to a corner that no neighbour beats in doubles; adds the moves to *steps.
+  Peak Climb(int start, const Eigen::Vector3d& direction, long* steps) const;
+
+  // The vertex found from the vertex `start` (-1: from the table); adds the moves to *steps.
   int Find(const Eigen::Vector3d& direction, int start, long* steps) const;
 
- private:
-  static constexpr int kLanes = 8;
+  // What it holds, in bytes.
+  std::size_t bytes() const;
 
-  // Some of a corner's neighbours: spare lanes repeat the corner itself, which is never higher. A
-  // corner with more than eight has several blocks in a row, its place being that of the first.
+ private:
+  // A corner in lane 0 and up to seven of its neighbours, relative to the body's middle and over a
+  // power of two, so that all lie within [-1, 1]; `link` is their corners. Spare lanes repeat a
+  // neighbour. The further blocks of a corner with more neighbours follow each other; there link[0]
+  // is how many are left, itself included.
   struct alignas(64) Block {
-    double x[kLanes], y[kLanes], z[kLanes];  // of the neighbours
-    std::int32_t link[kLanes];               // their places
-    double own_x, own_y, own_z;
-    std::int32_t vertex;
-    std::int32_t block_count;
+    float x[kLaneCount], y[kLaneCount], z[kLaneCount];
+    std::int32_t link[kLaneCount];
   };
-  static_assert(sizeof(Block) == 256);  // four cache lines
+  static_assert(sizeof(Block) == 128);  // two cache lines
+  static constexpr int kOwnNeighbors = kLaneCount - 1;
+
+  // How far single precision may be off when two lanes are compared, for a direction of 1-norm 1
+  // and coordinates within [-1, 1]. With u = 2^-23 (any rounding mode): a coordinate and a
+  // component of the direction are each rounded to single precision, products and sums round three
+  // times more, so a height is off by at most 5.1 u; two heights and the subtraction of the
+  // slack, 11.3 u. A direction whose coordinates are off by 2^-30 changes the difference of two
+  // heights, over an edge of at most 2 along each axis, by 6 * 2^-30 < 0.1 u. Rounding of the
+  // direction in doubles and underflow disappear in the rest.
+  static constexpr float kSlack = 0x1p-19F;  // 16 u
+
+  // Bodies of up to so many corners keep all of them in lanes and need no table.
+  static constexpr int kScanLimit = 32;
+  static_assert(kScanLimit == kTagMask + 1);
+  static constexpr std::array<std::int32_t, kLaneCount> kLaneTags = {0, 1, 2, 3, 4, 5, 6, 7};
 
   void AddCorners(const ConvexPolyhedronData& data);
   void FillCells();
-  std::size_t Cell(double x, double y, double z, double sum) const;
+  void FillScan();
+  void FillBlocks(int corner, std::span<const int> neighbors);
+  // The lanes that may be as far along as lane 0, or further.
+  static TOUCHSTONE_INLINE unsigned RivalLanes(const Block& block, float x, float y, float z) {
+    float heights[kLaneCount];
+    Heights<VectorLanes>(block, x, y, z).Store(heights);
+    const float low = heights[0] - kSlack;
+    unsigned rivals = 0;
+    for (int k = 1; k < kLaneCount; ++k) rivals |= static_cast<unsigned>(heights[k] >= low) << k;
+    return rivals;
+  }
+  void PutLane(Block* block, int lane, int corner) const;
 
-  int Scan(double x, double y, double z) const;
-  // Climbs from the corner at `place`. `budget` bounds the blocks looked at: it is reduced by their
-  // number, and a climb that used it up stops where it is.
-  int Climb(int place, double x, double y, double z, long* budget, long* steps) const;
+  template <class Lanes>
+  static TOUCHSTONE_INLINE Lanes Heights(const Block& block, float x, float y, float z) {
+    return x * Lanes::Load(block.x) + y * Lanes::Load(block.y) + z * Lanes::Load(block.z);
+  }
 
-  std::vector<int> corner_of_vertex_;  // by vertex: the place of its corner, or of one near
-  std::vector<Block> blocks_;
-  std::vector<std::int32_t> cells_;  // places; 2 resolution_^2 of them
-  int resolution_ = 0;               // 0 for bodies so small that a scan is faster
-  std::vector<double> scan_;         // for those: x of all corners, then y, then z
-  std::vector<std::int32_t> scan_vertices_;
+  template <class Lanes>
+  TOUCHSTONE_INLINE int LookWith(double x, double y, double z) const {
+    double sum = std::abs(x) + std::abs(y) + std::abs(z);
+    if (!(sum > 0x1p-1000 && sum < 0x1p1000)) [[unlikely]] {
+      if (!Rescale(&x, &y, &z)) return 0;
+      sum = std::abs(x) + std::abs(y) + std::abs(z);
+    }
+    const double scale = 1.0 / sum;
+    const auto fx = static_cast<float>(x * scale), fy = static_cast<float>(y * scale),
+               fz = static_cast<float>(z * scale);
+    if (scan_count_ > 0) {
+      Lanes top = Heights<Lanes>(scan_[0], fx, fy, fz).Tagged(scan_[0].link);
+      for (int i = 1; i < scan_count_; ++i) {
+        top = Lanes::Larger(top, Heights<Lanes>(scan_[i], fx, fy, fz).Tagged(scan_[i].link));
+      }
+      return top.TagOfLargest();
+    }
+    const Block& block =
+        blocks_[cells_.empty() ? wide_cells_[Cell(fx, fy, fz)] : cells_[Cell(fx, fy, fz)]];
+    return block.link[Heights<Lanes>(block, fx, fy, fz).Tagged(kLaneTags.data()).TagOfLargest()];
+  }
+
+  // Directions with z >= 0, and those with z < 0, as the square [-1, 1]^2 each: the octahedron
+  // |x| + |y| + |z| = 1 seen along z is a square with its corners on the axes, and x + y, x - y
+  // turn it upright. No branch, no folding. Rounding may carry x +- y past 1 by a few units of
+  // 2^-23, which the factor below 1 keeps within the last cell.
+  TOUCHSTONE_INLINE std::size_t Cell(float x, float y, float z) const {
+    const float half = half_resolution_;
+    const auto i = static_cast<std::uint32_t>(std::max(0.0F, half + half * (x + y)));
+    const auto j = static_cast<std::uint32_t>(std::max(0.0F, half + half * (x - y)));
+    const std::uint32_t lower = std::bit_cast<std::uint32_t>(z) >> 31;
+    return (static_cast<std::size_t>(lower) * resolution_ + j) * resolution_ + i;
+  }
+
+  // A very long or very short direction brought near 1; false for zero, infinite or NaN.
+  static bool Rescale(double* x, double* y, double* z);
+
+  double Height(int corner, double x, double y, double z) const;
+  // Climbs from a corner; (x, y, z) has a 1-norm of about 1. `budget` bounds the blocks looked at:
+  // it is reduced by their number, and a climb that used it up stops where it is.
+  Peak ClimbScaled(int start, double x, double y, double z, long* budget, long* steps) const;
+
+  std::vector<Corner> corners_;
+  std::vector<Block> blocks_;             // of the corners, then the further blocks
+  std::vector<std::uint16_t> cells_;      // corners; 2 resolution_^2 of them
+  std::vector<std::int32_t> wide_cells_;  // instead, for bodies of more than 2^16 corners
+  std::vector<std::int32_t> corner_of_vertex_;
+  std::array<Block, kScanLimit / kLaneCount> scan_{};
+  int scan_count_ = 0;  // blocks of scan_ in use; 0 where the table serves
+  std::int32_t resolution_ = 0;
+  float half_resolution_ = 0.0F;
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  double lane_scale_ = 1.0;
 };
 
 }  // namespace touchstone

@@ -74,8 +74,12 @@ void CheckPhaseAndTier(const JudgeContext& context) {
   const bool coincident = result.termination == Termination::kCoincident;
   const bool undecided = result.verdict == Verdict::kUndecided;
   const auto bad = [&](const char* detail) { context.Add(FindingKind::kBadCounters, detail); };
-  if (coincident != (result.phase == Phase::kStart) && !undecided) {
-    bad("decided before any search, and c = o: one without the other");
+  const bool at_start = result.phase == Phase::kStart && !undecided;
+  const bool by_bounds = result.verdict == Verdict::kSeparate &&
+                         result.termination == Termination::kEarlyExit &&
+                         result.tier == Tier::kBound;
+  if (at_start ? !(coincident || by_bounds) : coincident) {
+    bad("decided before any search, but neither c = o nor do bounds separate; or not, and c = o");
   }
   if (coincident && !IsZero(context.pair.c())) bad("terminated as coincident, but c is not o");
   if (coincident && result.certificate.kind != CertificateKind::kCoincidentInterior) {
