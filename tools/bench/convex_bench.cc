@@ -45,10 +45,23 @@ struct Lane {
   const EngineDescription* description = nullptr;
   const Engine* engine = nullptr;
   std::vector<std::unique_ptr<EnginePair>> pairs;
-  std::vector<Verdict> answers;
+  std::vector<Verdict> answers;  // to the pairs asked: a prefix of all
   std::vector<double> samples;
+  double ns_left = 0.0;
+  bool warm = false;
+  long changed_answers = 0;
 
   std::unique_ptr<EngineCache> MakeCache() const { return engine->MakeCache(); }
+
+  // The next `count` pairs, for the first time; none when the time is up.
+  void Judge(std::size_t count) {
+    if (ns_left < 0.0) return;
+    const Clock::time_point start = Clock::now();
+    const std::unique_ptr<EngineCache> cache = warm ? MakeCache() : nullptr;
+    for (std::size_t k = 0; k < count; ++k)
+      answers.push_back(pairs[answers.size()]->Ask(cache.get()));
+    ns_left -= NsSince(start);
+  }
 
   // Asks pairs [begin, end) in order, `repeats` times over; returns ns a query. Answers must be
   // those that were judged.
@@ -60,11 +73,10 @@ struct Lane {
       for (std::size_t i = begin; i < end; ++i) got += static_cast<long>(pairs[i]->Ask(cache));
     }
     const double ns = NsSince(start);
+    ns_left -= ns;
     if (got != expected * repeats) ++changed_answers;
     return ns / (static_cast<double>(end - begin) * repeats);
   }
-
-  long changed_answers = 0;
 };
 
 // A workload with every engine's own copy of its bodies.
@@ -81,12 +93,13 @@ class PreparedWorkload {
 
   const Workload& workload() const { return workload_; }
 
-  std::vector<Lane> Place(const std::vector<RelativePose>& poses) const {
+  std::vector<Lane> Place(const std::vector<RelativePose>& poses, double seconds, bool warm) const {
     std::vector<Lane> lanes(engines_.size());
     for (std::size_t e = 0; e < lanes.size(); ++e) {
       lanes[e].description = &descriptions_[e];
       lanes[e].engine = engines_[e].get();
-      lanes[e].answers.resize(poses.size(), Verdict::kUndecided);
+      lanes[e].ns_left = seconds * 1e9;
+      lanes[e].warm = warm;
       for (std::size_t i = 0; i < poses.size(); ++i) {
         const BenchLine& line = workload_.lines[i];
         lanes[e].pairs.push_back(
@@ -108,27 +121,33 @@ void RunRepeat(std::vector<Lane>& lanes, std::size_t count, int repeats) {
   const int per_turn = std::max(1, repeats / kTurns);
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<std::array<double, kTurns>> turns(lanes.size());
-    std::vector<int> batch(lanes.size());
+    std::vector<int> batch(lanes.size(), 0);
     for (std::size_t e = 0; e < lanes.size(); ++e) {
-      lanes[e].answers[i] = lanes[e].pairs[i]->Ask(nullptr);
+      lanes[e].Judge(1);
+      if (lanes[e].answers.size() <= i) continue;
       const double once = lanes[e].Time(i, i + 1, 1, nullptr);
       batch[e] = std::clamp(static_cast<int>(kLongestBatchNs / std::max(once, 1.0)), 1, per_turn);
     }
     for (int t = 0; t < kTurns; ++t) {
-      for (std::size_t e = 0; e < lanes.size(); ++e)
-        turns[e][t] = lanes[e].Time(i, i + 1, batch[e], nullptr);
+      for (std::size_t e = 0; e < lanes.size(); ++e) {
+        if (batch[e] > 0) turns[e][t] = lanes[e].Time(i, i + 1, batch[e], nullptr);
+      }
     }
-    for (std::size_t e = 0; e < lanes.size(); ++e) lanes[e].samples.push_back(MiddleOf(turns[e]));
+    for (std::size_t e = 0; e < lanes.size(); ++e) {
+      if (batch[e] > 0) lanes[e].samples.push_back(MiddleOf(turns[e]));
+    }
   }
 }
 
 // Batches of different pairs. At any time the engines are at places far apart, so that none finds
 // what another has just read.
 void RunMixed(std::vector<Lane>& lanes, std::size_t count) {
-  const std::size_t batches = (count + kMixedBatch - 1) / kMixedBatch;
+  const std::size_t batches = count / kMixedBatch;
   const std::size_t stride = std::max<std::size_t>(1, batches / lanes.size());
   for (Lane& lane : lanes) {
-    for (std::size_t i = 0; i < count; ++i) lane.answers[i] = lane.pairs[i]->Ask(nullptr);
+    // The turns ask each pair again.
+    lane.ns_left /= 1.0 + kTurns;
+    for (std::size_t b = 0; b < batches; ++b) lane.Judge(kMixedBatch);
   }
   std::vector<std::vector<std::array<double, kTurns>>> turns(
       lanes.size(), std::vector<std::array<double, kTurns>>(batches));
@@ -137,11 +156,13 @@ void RunMixed(std::vector<Lane>& lanes, std::size_t count) {
       for (std::size_t e = 0; e < lanes.size(); ++e) {
         const std::size_t mine = (b + e * stride) % batches;
         const std::size_t begin = mine * kMixedBatch;
-        turns[e][mine][t] = lanes[e].Time(begin, std::min(count, begin + kMixedBatch), 1, nullptr);
+        if (begin + kMixedBatch > lanes[e].answers.size()) continue;
+        turns[e][mine][t] = lanes[e].Time(begin, begin + kMixedBatch, 1, nullptr);
       }
     }
   }
   for (std::size_t e = 0; e < lanes.size(); ++e) {
+    turns[e].resize(lanes[e].answers.size() / kMixedBatch);
     for (const auto& batch : turns[e]) lanes[e].samples.push_back(MiddleOf(batch));
   }
 }
@@ -149,20 +170,19 @@ void RunMixed(std::vector<Lane>& lanes, std::size_t count) {
 // Motions of `frames` consecutive pairs. The first frame fills the cache and is not timed.
 void RunWarm(std::vector<Lane>& lanes, std::size_t count, std::size_t frames) {
   for (std::size_t begin = 0; begin + frames <= count; begin += frames) {
-    for (Lane& lane : lanes) {
-      const std::unique_ptr<EngineCache> cache = lane.MakeCache();
-      for (std::size_t i = begin; i < begin + frames; ++i)
-        lane.answers[i] = lane.pairs[i]->Ask(cache.get());
-    }
+    for (Lane& lane : lanes) lane.Judge(frames);
     std::vector<std::array<double, kTurns>> turns(lanes.size());
     for (int t = 0; t < kTurns; ++t) {
       for (std::size_t e = 0; e < lanes.size(); ++e) {
+        if (lanes[e].answers.size() <= begin) continue;
         const std::unique_ptr<EngineCache> cache = lanes[e].MakeCache();
         lanes[e].pairs[begin]->Ask(cache.get());
         turns[e][t] = lanes[e].Time(begin + 1, begin + frames, 1, cache.get());
       }
     }
-    for (std::size_t e = 0; e < lanes.size(); ++e) lanes[e].samples.push_back(MiddleOf(turns[e]));
+    for (std::size_t e = 0; e < lanes.size(); ++e) {
+      if (lanes[e].answers.size() > begin) lanes[e].samples.push_back(MiddleOf(turns[e]));
+    }
   }
 }
 
@@ -180,11 +200,13 @@ Workload MakeWorkload(const ConvexBenchOptions& options, const WorkloadKey& key,
   return {};
 }
 
-void RunCell(const ConvexBenchOptions& options, const WorkloadKey& key, BenchMode mode,
+void RunCell(const ConvexBenchOptions& options, const ConvexBenchCell& cell,
              const PreparedWorkload& prepared, double gap, std::vector<ConvexBenchRow>* rows) {
+  const BenchMode mode = cell.mode;
+  const bool warm = mode == BenchMode::kWarm || mode == BenchMode::kWarmOneDegree;
   const std::vector<RelativePose> poses = PlaceAtGap(prepared.workload(), gap);
   const std::vector<Verdict> truth = ExactVerdicts(prepared.workload(), poses);
-  std::vector<Lane> lanes = prepared.Place(poses);
+  std::vector<Lane> lanes = prepared.Place(poses, options.seconds_per_row, warm);
   if (mode == BenchMode::kRepeat) {
     RunRepeat(lanes, poses.size(), options.repeats);
   } else if (mode == BenchMode::kMixed) {
@@ -195,12 +217,12 @@ void RunCell(const ConvexBenchOptions& options, const WorkloadKey& key, BenchMod
   for (Lane& lane : lanes) {
     ConvexBenchRow row;
     row.engine = lane.description->name;
-    row.shape = key.shape;
-    row.n = key.n;
+    row.shape = cell.shape;
+    row.n = cell.n;
     row.gap = gap;
     row.mode = mode;
     row.median_ns = Median(lane.samples);
-    for (std::size_t i = 0; i < truth.size(); ++i) {
+    for (std::size_t i = 0; i < lane.answers.size(); ++i) {
       ++row.queries;
       if (lane.answers[i] == Verdict::kUndecided) ++row.undecided;
       if (IsWrong(lane.description->touch, lane.answers[i], truth[i])) ++row.wrong;
@@ -232,21 +254,17 @@ std::vector<ConvexBenchRow> RunConvexBench(const ConvexBenchOptions& options,
   std::vector<std::unique_ptr<Engine>> engines;
   for (const EngineDescription& engine : options.engines)
     engines.push_back(engine.make(engine.best_tolerance));
-  const double cells = static_cast<double>(options.shapes.size() * options.sizes.size() *
-                                           options.modes.size() * options.gaps.size());
+  const double count = static_cast<double>(options.cells.size() * options.gaps.size());
   double done = 0.0;
   std::vector<ConvexBenchRow> rows;
-  for (const std::string& shape : options.shapes) {
-    for (const int n : options.sizes) {
-      const WorkloadKey key{shape, n, options.seed, options.meshes_dir};
-      for (const BenchMode mode : options.modes) {
-        const PreparedWorkload prepared(MakeWorkload(options, key, mode), options.engines, engines);
-        for (const double gap : options.gaps) {
-          if (report) report(done / cells);
-          if (!prepared.workload().lines.empty()) RunCell(options, key, mode, prepared, gap, &rows);
-          done += 1.0;
-        }
-      }
+  for (const ConvexBenchCell& cell : options.cells) {
+    const WorkloadKey key{cell.shape, cell.n, options.seed, options.meshes_dir};
+    const PreparedWorkload prepared(MakeWorkload(options, key, cell.mode), options.engines,
+                                    engines);
+    for (const double gap : options.gaps) {
+      if (report) report(done / count);
+      if (!prepared.workload().lines.empty()) RunCell(options, cell, prepared, gap, &rows);
+      done += 1.0;
     }
   }
   return rows;

@@ -20,18 +20,26 @@ enum class BenchMode {
 
 std::string_view ToString(BenchMode mode);
 
+// Which bodies are asked in which mode, at every gap.
+struct ConvexBenchCell {
+  std::string shape;
+  int n = 0;  // vertices a body
+  BenchMode mode = BenchMode::kRepeat;
+};
+
 struct ConvexBenchOptions {
   std::vector<EngineDescription> engines;  // each run at its best tolerance
-  std::vector<std::string> shapes;
-  std::vector<int> sizes;  // vertices a body
+  std::vector<ConvexBenchCell> cells;
   std::vector<double> gaps;
-  std::vector<BenchMode> modes;
   int orientations = 500;  // kRepeat
   int repeats = 300;
   int mixed_pairs = 2048;
   int mixed_vertices = 1 << 18;  // in all bodies of a mixed workload together
   int motions = 24;              // kWarm
   int frames = 64;
+  // An engine that has taken so long for one gap of a cell is asked no more there: its row then
+  // counts fewer queries.
+  double seconds_per_row = 2.0;
   std::uint64_t seed = 1;
   std::string meshes_dir;
 };

@@ -21,8 +21,13 @@ void AddOnce(std::vector<T>& items, const T& item) {
   if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
 }
 
+void Print(std::ostream& out, const Table& table, TableStyle style) {
+  style == TableStyle::kText ? table.Print(out) : table.PrintMarkdown(out);
+  out << '\n';
+}
+
 // The rows of one shape, n and mode.
-void PrintBlock(std::ostream& out, std::span<const ConvexBenchRow> rows) {
+void PrintBlock(std::ostream& out, std::span<const ConvexBenchRow> rows, TableStyle style) {
   std::vector<std::string> engines;
   std::vector<double> gaps;
   for (const ConvexBenchRow& row : rows) {
@@ -52,8 +57,7 @@ void PrintBlock(std::ostream& out, std::span<const ConvexBenchRow> rows) {
                  {std::to_string(queries), std::to_string(wrong), std::to_string(undecided)});
     table.Row(cells);
   }
-  table.Print(out);
-  out << '\n';
+  Print(out, table, style);
 }
 
 }  // namespace
@@ -84,14 +88,22 @@ void WriteConvexBenchCsv(std::ostream& out, std::span<const ConvexBenchRow> rows
   }
 }
 
-void PrintConvexBench(std::ostream& out, std::span<const ConvexBenchRow> rows) {
+void PrintConvexBench(std::ostream& out, std::span<const ConvexBenchRow> rows, TableStyle style) {
   const auto block = [](const ConvexBenchRow& row) { return std::tie(row.shape, row.n, row.mode); };
   for (std::size_t begin = 0; begin < rows.size();) {
     std::size_t end = begin;
     while (end < rows.size() && block(rows[end]) == block(rows[begin])) ++end;
-    PrintBlock(out, rows.subspan(begin, end - begin));
+    PrintBlock(out, rows.subspan(begin, end - begin), style);
     begin = end;
   }
+}
+
+void PrintTargets(std::ostream& out, std::span<const Target> targets, TableStyle style) {
+  Table table;
+  table.Row({"measure", "target", "measured", "met"});
+  for (const Target& target : targets)
+    table.Row({target.measure, target.target, target.measured, target.met ? "yes" : "no"});
+  Print(out, table, style);
 }
 
 }  // namespace touchstone

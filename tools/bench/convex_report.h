@@ -6,6 +6,7 @@
 #include <span>
 
 #include "touchstone/tools/bench/convex_bench.h"
+#include "touchstone/tools/bench/targets.h"
 #include "touchstone/tools/result_json.h"
 
 namespace touchstone {
@@ -17,9 +18,12 @@ Json ConvexBenchJson(std::span<const ConvexBenchRow> rows);
 // The same columns, all modes.
 void WriteConvexBenchCsv(std::ostream& out, std::span<const ConvexBenchRow> rows);
 
+enum class TableStyle { kText, kMarkdown };
+
 // A table for each shape, n and mode: an engine a line, a gap a column, then its wrong and its
 // undecided answers over all gaps.
-void PrintConvexBench(std::ostream& out, std::span<const ConvexBenchRow> rows);
+void PrintConvexBench(std::ostream& out, std::span<const ConvexBenchRow> rows, TableStyle style);
+void PrintTargets(std::ostream& out, std::span<const Target> targets, TableStyle style);
 
 }  // namespace touchstone
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#ifndef TOUCHSTONE_TOOLS_TOUCHSTONE_BENCH_H_
+#define TOUCHSTONE_TOOLS_TOUCHSTONE_BENCH_H_
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "touchstone/tools/engines/engine.h"
+
+namespace touchstone {
+
+// The engines of these names, or all that can run; says on stderr which cannot. Throws BadInput for
+// a name that there is not, or that cannot run.
+std::vector<EngineDescription> SelectEngines(const std::vector<std::string>& names);
+
+// What can be timed: one subcommand of `bench` a file.
+void AddBenchConvex(CLI::App& bench, int& exit_code);
+
+}  // namespace touchstone
+
+#endif  // TOUCHSTONE_TOOLS_TOUCHSTONE_BENCH_H_
