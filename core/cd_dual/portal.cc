@@ -92,22 +92,17 @@ class PortalSearch {
     }
     FramePoint first;
     if (!Probe(n.x, n.y, 1.0, &first)) return false;
-    const Point2 move = step_ * Point2{first.x, first.y};
-    const Point2 next{n.x - move.x, n.y - move.y};
-    FramePoint second;
-    if (!Probe(next.x, next.y, 1.0, &second)) return false;
-    const bool improved = Squared(second) < Squared(first);
-    base_ = improved ? second : first;
-    base_n_ = improved ? next : n;
+    base_ = first;
+    base_n_ = n;
     return true;
   }
 
   static TOUCHSTONE_INLINE double Squared(const FramePoint& w) { return w.x * w.x + w.y * w.y; }
 
   // Two side supports, meant to fall where the base's shadow would after a third of a turn either
-  // way: together a triangle around the axis, as small as the base is near.
+  // way and twice as far out: together a triangle around the axis, as small as the base is near.
   TOUCHSTONE_INLINE bool Surround() {
-    const double kCos = -1.5, kSin = 0.8660254037844386;  // cosine less one
+    const double kCos = -2.0, kSin = 1.7320508075688772;  // 2 cos(120 degrees) - 1, 2 sin
     const Point2 across = step_ * Point2{-kSin * base_.y, kSin * base_.x};
     const Point2 back = step_ * Point2{kCos * base_.x, kCos * base_.y};
     x_[0] = base_;

@@ -31,7 +31,7 @@ TOUCHSTONE_INLINE double Turn(const FramePoint& a, const FramePoint& b) {
 class RayFrame {
  public:
   TOUCHSTONE_INLINE explicit RayFrame(const MinkowskiDifference& m)
-      : table_p_(m.p().support_table()), table_q_(m.q().support_table()), scale_(m.scale()) {
+      : table_p_(m.p().support_table()), table_q_(m.q().support_table()) {
     const double z[3] = {-m.c()[0] / m.c_norm(), -m.c()[1] / m.c_norm(), -m.c()[2] / m.c_norm()};
     // An orthonormal pair across z (Duff et al. 2017), without a branch on its axis.
     const double sign = std::copysign(1.0, z[2]);
@@ -45,8 +45,10 @@ class RayFrame {
         in_q_(i, j) = r(0, i) * in_p_(0, j) + r(1, i) * in_p_(1, j) + r(2, i) * in_p_(2, j);
       }
       const Eigen::Vector3d& t = m.pose().translation();
-      offset_[i] = in_p_(0, i) * t[0] + in_p_(1, i) * t[1] + in_p_(2, i) * t[2];
+      offset_[i] = m.scale() * (in_p_(0, i) * t[0] + in_p_(1, i) * t[1] + in_p_(2, i) * t[2]);
     }
+    point_p_ = m.scale() * in_p_;
+    point_q_ = m.scale() * in_q_;
   }
 
   // A vertex of M that is extreme along (nx, ny, nz), or nearly: one look at each body's table.
@@ -62,9 +64,10 @@ class RayFrame {
   TOUCHSTONE_INLINE FramePoint Point(int p, int q) const {
     const SupportTable::Corner& a = table_p_.corner(p);
     const SupportTable::Corner& b = table_q_.corner(q);
+    // In an order with short chains; the scale is a power of two, so that it rounds nothing.
     const auto coordinate = [&](int i) {
-      return scale_ * ((in_p_(0, i) * a.x + in_p_(1, i) * a.y + in_p_(2, i) * a.z) -
-                       (in_q_(0, i) * b.x + in_q_(1, i) * b.y + in_q_(2, i) * b.z) - offset_[i]);
+      return ((point_p_(0, i) * a.x + point_p_(1, i) * a.y) + (point_p_(2, i) * a.z - offset_[i])) -
+             ((point_q_(0, i) * b.x + point_q_(1, i) * b.y) + point_q_(2, i) * b.z);
     };
     return {p, q, coordinate(0), coordinate(1), coordinate(2)};
   }
@@ -91,10 +94,10 @@ class RayFrame {
  private:
   const SupportTable& table_p_;
   const SupportTable& table_q_;
-  const double scale_;
-  Eigen::Matrix3d in_p_;    // columns: the frame's axes in P
-  Eigen::Matrix3d in_q_;    // the same seen from Q: Rᵀ in_p_
-  Eigen::Vector3d offset_;  // in_p_ᵀ t
+  Eigen::Matrix3d in_p_;               // columns: the frame's axes in P
+  Eigen::Matrix3d in_q_;               // the same seen from Q: Rᵀ in_p_
+  Eigen::Matrix3d point_p_, point_q_;  // the same, scaled
+  Eigen::Vector3d offset_;             // in_p_ᵀ t, scaled
 };
 
 }  // namespace touchstone

@@ -120,14 +120,13 @@ class SupportTable {
 
   template <class Lanes>
   TOUCHSTONE_INLINE int LookWith(double x, double y, double z) const {
-    double sum = std::abs(x) + std::abs(y) + std::abs(z);
-    if (!(sum > 0x1p-1000 && sum < 0x1p1000)) [[unlikely]] {
+    auto fx = static_cast<float>(x), fy = static_cast<float>(y), fz = static_cast<float>(z);
+    float sum = std::abs(fx) + std::abs(fy) + std::abs(fz);
+    if (!(sum > 0x1p-80F && sum < 0x1p80F)) [[unlikely]] {
       if (!Rescale(&x, &y, &z)) return 0;
-      sum = std::abs(x) + std::abs(y) + std::abs(z);
+      fx = static_cast<float>(x), fy = static_cast<float>(y), fz = static_cast<float>(z);
+      sum = std::abs(fx) + std::abs(fy) + std::abs(fz);
     }
-    const double scale = 1.0 / sum;
-    const auto fx = static_cast<float>(x * scale), fy = static_cast<float>(y * scale),
-               fz = static_cast<float>(z * scale);
     if (scan_count_ > 0) {
       Lanes top = Heights<Lanes>(scan_[0], fx, fy, fz).Tagged(scan_[0].link);
       for (int i = 1; i < scan_count_; ++i) {
@@ -135,19 +134,19 @@ class SupportTable {
       }
       return top.TagOfLargest();
     }
-    const Block& block =
-        blocks_[cells_.empty() ? wide_cells_[Cell(fx, fy, fz)] : cells_[Cell(fx, fy, fz)]];
+    const Block& block = blocks_[cells_.empty() ? wide_cells_[Cell(fx, fy, fz, sum)]
+                                                : cells_[Cell(fx, fy, fz, sum)]];
     return block.link[Heights<Lanes>(block, fx, fy, fz).Tagged(kLaneTags.data()).TagOfLargest()];
   }
 
   // Directions with z >= 0, and those with z < 0, as the square [-1, 1]^2 each: the octahedron
-  // |x| + |y| + |z| = 1 seen along z is a square with its corners on the axes, and x + y, x - y
-  // turn it upright. No branch, no folding. Rounding may carry x +- y past 1 by a few units of
-  // 2^-23, which the factor below 1 keeps within the last cell.
-  TOUCHSTONE_INLINE std::size_t Cell(float x, float y, float z) const {
-    const float half = half_resolution_;
-    const auto i = static_cast<std::uint32_t>(std::max(0.0F, half + half * (x + y)));
-    const auto j = static_cast<std::uint32_t>(std::max(0.0F, half + half * (x - y)));
+  // |x| + |y| + |z| = sum seen along z is a square with its corners on the axes, and x + y, x - y
+  // turn it upright. No branch, no folding. Rounding may carry x +- y past the sum by a few units
+  // of 2^-23, which the factor below 1 keeps within the last cell.
+  TOUCHSTONE_INLINE std::size_t Cell(float x, float y, float z, float sum) const {
+    const float half = half_resolution_, scale = half / sum;
+    const auto i = static_cast<std::uint32_t>(std::max(0.0F, half + scale * (x + y)));
+    const auto j = static_cast<std::uint32_t>(std::max(0.0F, half + scale * (x - y)));
     const std::uint32_t lower = std::bit_cast<std::uint32_t>(z) >> 31;
     return (static_cast<std::size_t>(lower) * resolution_ + j) * resolution_ + i;
   }
