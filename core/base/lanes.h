@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <cstring>
 
-#define TOUCHSTONE_INLINE __attribute__((always_inline)) inline
+#include "touchstone/core/base/vector_clones.h"
 
 namespace touchstone {
 

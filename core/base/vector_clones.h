@@ -15,4 +15,7 @@
 #define TOUCHSTONE_VECTOR_CLONES
 #endif
 
+// What such a function calls must become part of it, or it would not be compiled with it.
+#define TOUCHSTONE_INLINE __attribute__((always_inline)) inline
+
 #endif  // TOUCHSTONE_CORE_BASE_VECTOR_CLONES_H_

@@ -12,8 +12,6 @@ namespace {
 using Lanes = double __attribute__((vector_size(8 * sizeof(double))));
 using Places = long __attribute__((vector_size(8 * sizeof(long))));
 
-#define TOUCHSTONE_INLINE inline __attribute__((always_inline))
-
 // Vectors are handed back through references: how a return value travels depends on the clone.
 template <class Block>
 TOUCHSTONE_INLINE void Heights(const Block& block, double nx, double ny, double nz,
