@@ -14,8 +14,8 @@ using Places = long __attribute__((vector_size(8 * sizeof(long))));
 
 // Vectors are handed back through references: how a return value travels depends on the clone.
 template <class Block>
-TOUCHSTONE_INLINE void Heights(const Block& block, double nx, double ny, double nz,
-                               Lanes& heights) {
+[[gnu::always_inline]] inline void Heights(const Block& block, double nx, double ny, double nz,
+                                           Lanes& heights) {
   Lanes x, y, z;
   std::memcpy(&x, block.x, sizeof x);
   std::memcpy(&y, block.y, sizeof y);
@@ -23,8 +23,8 @@ TOUCHSTONE_INLINE void Heights(const Block& block, double nx, double ny, double 
   heights = nx * x + ny * y + nz * z;
 }
 
-TOUCHSTONE_INLINE void Raise(Lanes& highest, Places& where, const Lanes& heights,
-                             const Places& here) {
+[[gnu::always_inline]] inline void Raise(Lanes& highest, Places& where, const Lanes& heights,
+                                         const Places& here) {
   const Places better = heights > highest;
   highest = better ? heights : highest;
   where = better ? here : where;
