@@ -7,10 +7,16 @@
 // vectorises; operations and their order are the same in every clone (no contraction to fused
 // multiply-add), and so are the results, bit for bit.
 //
+// TOUCHSTONE_NO_AVX512 leaves the first out, to time what processors without it would do.
+//
 // Left out where the loader's choice does not get along with the tool: sanitizers, other compilers.
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifdef TOUCHSTONE_NO_AVX512
+#define TOUCHSTONE_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
+#else
 #define TOUCHSTONE_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#endif
 #else
 #define TOUCHSTONE_VECTOR_CLONES
 #endif

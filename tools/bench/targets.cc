@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "touchstone/tools/bench/machine.h"
 #include "touchstone/tools/numbers.h"
 #include "touchstone/tools/table.h"
 
@@ -80,9 +81,21 @@ class Comparison {
     return targets_;
   }
 
- private:
-  using GapFilter = std::function<bool(double)>;
+  const std::set<int>& sizes() const { return sizes_; }
 
+  using GapFilter = std::function<bool(double)>;
+  Ratios SpeedUp(const std::string& shape, int n, BenchMode mode, const GapFilter& filter) const {
+    Ratios ratios;
+    for (const double gap : gaps_) {
+      if (!filter(gap)) continue;
+      const ConvexBenchRow* ours = Find(kOurs, shape, n, gap, mode);
+      const double other = BestOther(shape, n, gap, mode);
+      if (ours != nullptr && std::isfinite(other)) ratios.Add(other / ours->median_ns, gap);
+    }
+    return ratios;
+  }
+
+ private:
   const ConvexBenchRow* Find(std::string_view engine, const std::string& shape, int n, double gap,
                              BenchMode mode) const {
     for (const ConvexBenchRow& row : rows_) {
@@ -102,17 +115,6 @@ class Comparison {
         best = std::min(best, row->median_ns);
     }
     return best;
-  }
-
-  Ratios SpeedUp(const std::string& shape, int n, BenchMode mode, const GapFilter& filter) const {
-    Ratios ratios;
-    for (const double gap : gaps_) {
-      if (!filter(gap)) continue;
-      const ConvexBenchRow* ours = Find(kOurs, shape, n, gap, mode);
-      const double other = BestOther(shape, n, gap, mode);
-      if (ours != nullptr && std::isfinite(other)) ratios.Add(other / ours->median_ns, gap);
-    }
-    return ratios;
   }
 
   void Add(std::string measure, std::string target, std::string measured, bool met) {
@@ -298,11 +300,36 @@ class Comparison {
   std::vector<Target> targets_;
 };
 
+// The speed-up over the best other, with AVX2 at most against all.
+std::vector<Target> CompareInstructionSets(const InstructionSets& sets) {
+  const Comparison all(sets.all, nullptr), avx2(sets.avx2, nullptr);
+  std::vector<Target> targets;
+  for (const int n : all.sizes()) {
+    const auto every = [](double) { return true; };
+    const Ratios wide = all.SpeedUp("ellipsoid-2", n, BenchMode::kRepeat, every);
+    const Ratios narrow = avx2.SpeedUp("ellipsoid-2", n, BenchMode::kRepeat, every);
+    if (wide.empty() || narrow.empty()) continue;
+    const double part = narrow.mean() / wide.mean();
+    targets.push_back(
+        {"speed-up with AVX2 only, n = " + std::to_string(n),
+         ">= 0.7 of that with " + VectorClonesInUse(),
+         Fixed(part, 2) + " (" + Fixed(narrow.mean(), 2) + " / " + Fixed(wide.mean(), 2) + ")",
+         part >= 0.7});
+  }
+  return targets;
+}
+
 }  // namespace
 
 std::vector<Target> CompareWithTargets(std::span<const ConvexBenchRow> rows,
-                                       const ConvexProfile* profile) {
-  return Comparison(rows, profile).Run();
+                                       const ConvexProfile* profile,
+                                       const InstructionSets* instruction_sets) {
+  std::vector<Target> targets = Comparison(rows, profile).Run();
+  if (instruction_sets != nullptr) {
+    for (Target& target : CompareInstructionSets(*instruction_sets))
+      targets.push_back(std::move(target));
+  }
+  return targets;
 }
 
 }  // namespace touchstone

@@ -18,11 +18,17 @@ struct Target {
   bool met = false;
 };
 
-// The targets that the rows, and the profile when there is one, allow to compute. Ratios are of
+// The same queries timed by this program and by the one whose vector code stops at AVX2.
+struct InstructionSets {
+  std::vector<ConvexBenchRow> all, avx2;
+};
+
+// The targets that the rows allow to compute, and the others where they are given. Ratios are of
 // medians within a cell; "best other" is the fastest of libccd MPR (with a scan and with our
 // support), FCL on libccd and Bullet, of those without a wrong verdict in these rows.
 std::vector<Target> CompareWithTargets(std::span<const ConvexBenchRow> rows,
-                                       const ConvexProfile* profile);
+                                       const ConvexProfile* profile,
+                                       const InstructionSets* instruction_sets);
 
 }  // namespace touchstone
 

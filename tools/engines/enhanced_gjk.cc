@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <limits>
 
+#include "touchstone/tools/engines/own_copy.h"
 #include "touchstone/tools/engines/registry.h"
 
 namespace touchstone {
@@ -206,7 +207,7 @@ class GjkSearch {
 };
 
 struct Shape : EngineShape {
-  explicit Shape(const ConvexPolyhedron& b) : body(b) {}
+  explicit Shape(const ConvexPolyhedron& b) : body(OwnCopy(b)) {}
   ConvexPolyhedron body;
 };
 

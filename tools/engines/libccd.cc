@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "touchstone/core/convex/support.h"
+#include "touchstone/tools/engines/own_copy.h"
 #include "touchstone/tools/engines/registry.h"
 #include "touchstone/tools/engines/scan_support.h"
 
@@ -26,14 +27,14 @@ constexpr int kMaxSupportPairs = 2000;
 enum class Algorithm { kGjk, kMpr };
 
 struct ScannedBody {
-  explicit ScannedBody(const ConvexPolyhedron& b) : body(b), scan(b) {}
+  explicit ScannedBody(const ConvexPolyhedron& b) : body(OwnCopy(b)), scan(b) {}
   int Find(const Eigen::Vector3d& direction, int /*start*/) const { return scan.Find(direction); }
   ConvexPolyhedron body;
   ScanSupport scan;
 };
 
 struct ClimbedBody {
-  explicit ClimbedBody(const ConvexPolyhedron& b) : body(b) {}
+  explicit ClimbedBody(const ConvexPolyhedron& b) : body(OwnCopy(b)) {}
   int Find(const Eigen::Vector3d& direction, int start) const {
     return SupportVertex(body, direction, start);
   }

@@ -2,13 +2,14 @@
 //
 // Our own searches, asked for the verdict alone.
 #include "touchstone/core/cd_dual/cd_dual.h"
+#include "touchstone/tools/engines/own_copy.h"
 #include "touchstone/tools/engines/registry.h"
 
 namespace touchstone {
 namespace {
 
 struct Shape : EngineShape {
-  explicit Shape(const ConvexPolyhedron& b) : body(b) {}
+  explicit Shape(const ConvexPolyhedron& b) : body(OwnCopy(b)) {}
   ConvexPolyhedron body;
 };
 

@@ -15,6 +15,7 @@
 #include "touchstone/tools/bench/convex_profile.h"
 #include "touchstone/tools/bench/convex_report.h"
 #include "touchstone/tools/bench/machine.h"
+#include "touchstone/tools/bench/other_program.h"
 #include "touchstone/tools/bench/targets.h"
 #include "touchstone/tools/bench/workload.h"
 #include "touchstone/tools/touchstone/bench.h"
@@ -122,7 +123,6 @@ ConvexBenchOptions MakeOptions(const ConvexArguments& arguments) {
   options.orientations = OrElse(arguments.orientations, quick ? 40 : 500, "--orientations");
   options.repeats = OrElse(arguments.repeats, quick ? 60 : 300, "--repeats");
   options.mixed_pairs = OrElse(arguments.pairs, quick ? 512 : 2048, "--pairs");
-  options.mixed_vertices = quick ? 1 << 16 : 1 << 18;
   options.motions = OrElse(arguments.motions, quick ? 6 : 24, "--motions");
   options.seconds_per_row = quick ? 0.2 : arguments.seconds_per_row;
   if (!(options.seconds_per_row > 0.0))
@@ -142,13 +142,15 @@ std::ofstream OpenForWriting(const std::string& path) {
   return file;
 }
 
-// The default engine's costs, where the whole program runs or they were asked for.
-std::optional<ConvexProfile> MakeProfile(const ConvexArguments& arguments,
-                                         const ConvexBenchOptions& options,
-                                         const std::function<void(double)>& report) {
-  const bool whole = !arguments.quick && arguments.shapes.empty() && arguments.sizes.empty() &&
-                     arguments.modes.empty() && arguments.engines.empty();
-  if (!whole && !arguments.profile) return std::nullopt;
+// Where the whole program runs, or it was asked for.
+bool WantsProfile(const ConvexArguments& arguments) {
+  return arguments.profile ||
+         (!arguments.quick && arguments.shapes.empty() && arguments.sizes.empty() &&
+          arguments.modes.empty() && arguments.engines.empty());
+}
+
+ConvexProfile MakeProfile(const ConvexBenchOptions& options,
+                          const std::function<void(double)>& report) {
   ConvexProfileOptions profile;
   profile.sizes = {20, 100, 1000};
   profile.gaps = {-5.0, -1e-6, 1e-6, 5.0};
@@ -157,6 +159,17 @@ std::optional<ConvexProfile> MakeProfile(const ConvexArguments& arguments,
   profile.seed = options.seed;
   profile.heap = MeterHeap;
   return RunConvexProfile(profile, report);
+}
+
+// Nothing where touchstone-avx2 was not built, or the processor has no more than it uses.
+std::optional<InstructionSets> MakeInstructionSets() {
+  const std::string arguments =
+      "--quick --modes repeat --engines portal,libccd-mpr,libccd-mpr+support,fcl-libccd,bullet-f64";
+  const auto here = ProgramBeside("touchstone"), there = ProgramBeside("touchstone-avx2");
+  if (!here || !there || VectorClonesInUse() != "AVX-512") return std::nullopt;
+  const auto all = RunConvexBenchOf(*here, arguments), avx2 = RunConvexBenchOf(*there, arguments);
+  if (!all || !avx2) return std::nullopt;
+  return InstructionSets{*all, *avx2};
 }
 
 int RunConvexCommand(const ConvexArguments& arguments) {
@@ -171,9 +184,15 @@ int RunConvexCommand(const ConvexArguments& arguments) {
   const std::function<void(double)> report =
       terminal ? std::function<void(double)>(ShowProgress) : nullptr;
   const std::vector<ConvexBenchRow> rows = RunConvexBench(options, report);
-  const std::optional<ConvexProfile> profile = MakeProfile(arguments, options, report);
+  std::optional<ConvexProfile> profile;
+  std::optional<InstructionSets> instruction_sets;
+  if (WantsProfile(arguments)) {
+    profile = MakeProfile(options, report);
+    instruction_sets = MakeInstructionSets();
+  }
   if (terminal) std::cerr << "\r\033[K";
-  const std::vector<Target> targets = CompareWithTargets(rows, profile ? &*profile : nullptr);
+  const std::vector<Target> targets = CompareWithTargets(
+      rows, profile ? &*profile : nullptr, instruction_sets ? &*instruction_sets : nullptr);
   if (csv.is_open()) WriteConvexBenchCsv(csv, rows);
   if (tables.is_open()) {
     PrintConvexBench(tables, rows, TableStyle::kMarkdown);
