@@ -146,6 +146,9 @@ class Query {
     if (proposal.kind == Kind::kSeparatingDirection) {
       if (ConcludeSeparate(proposal.direction, proposal.support)) return;
     } else if (proposal.kind == Kind::kEnclosed) {
+      if (IsClearlyEnclosing(m_, proposal.points)) {
+        return ConcludeOverlap(proposal.triangle, Tier::kBound);
+      }
       if (ConcludeEnclosed(proposal.triangle)) return;
     } else if (proposal.kind == Kind::kExitFacet) {
       if (ConcludeFacet(proposal.triangle)) return;
@@ -176,7 +179,7 @@ class Query {
     result_.tier = Tier::kExact;
   }
 
-  bool ConcludeSeparate(const Eigen::Vector3d& direction, VertexPair support) {
+  bool ConcludeSeparate(const Eigen::Vector3d& direction, CornerPair support) {
     const auto tier = ProveSeparatingDirection(&signs_, direction, support);
     if (!tier) return false;
     ConcludeApart(direction, *tier);
@@ -193,12 +196,16 @@ class Query {
   bool ConcludeEnclosed(const std::array<VertexPair, 3>& triangle) {
     const auto tier = ProveEnclosingTetrahedron(&signs_, triangle);
     if (!tier) return false;
+    ConcludeOverlap(triangle, *tier);
+    return true;
+  }
+
+  void ConcludeOverlap(const std::array<VertexPair, 3>& triangle, Tier tier) {
     result_.verdict = Verdict::kOverlap;
-    result_.tier = *tier;
+    result_.tier = tier;
     result_.termination = Termination::kEarlyExit;
     result_.certificate = {CertificateKind::kEnclosingTetrahedron, Eigen::Vector3d::Zero(),
                            triangle};
-    return true;
   }
 
   // A triangle proven to be part of the exit facet decides by the side of its plane that o is on.
@@ -236,7 +243,7 @@ class Query {
   void ConcludeVerdictAlone(const std::array<VertexPair, 3>& triangle) {
     if (ConcludeEnclosed(triangle)) return;
     const Eigen::Vector3d normal = signs_.Plane(triangle).normal;
-    ConcludeSeparate(normal, m_.Support(normal, triangle[0], &log_.of(Phase::kPortal)));
+    ConcludeSeparate(normal, m_.Corners(m_.Support(normal, triangle[0], &log_.of(Phase::kPortal))));
   }
 
   CollideResult& result_;
@@ -250,6 +257,8 @@ class Query {
 
 CollideResult Collide(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
                       const RelativePose& pose, const CollideOptions& options) {
+  p.Prefetch();
+  q.Prefetch();
   CollideResult result;
   Query(p, q, pose, options, &result).Run();
   return result;

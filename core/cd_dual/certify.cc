@@ -98,15 +98,13 @@ int FaceByIdentity(const Signs& signs, const FacetPlane& plane, Body body, int v
 }  // namespace
 
 std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d& direction,
-                                             VertexPair support) {
+                                             CornerPair support) {
   const MinkowskiDifference& m = signs->difference();
   const Eigen::Vector3d toward_q = -m.DirectionToQ(direction);
-  const SupportTable& table_p = m.p().support_table();
-  const SupportTable& table_q = m.q().support_table();
   long steps = 0;
-  const auto peak_p = table_p.Climb(table_p.CornerOfVertex(support.p), direction, &steps);
-  const auto peak_q = table_q.Climb(table_q.CornerOfVertex(support.q), toward_q, &steps);
-  support = {table_p.corner(peak_p.corner).vertex, table_q.corner(peak_q.corner).vertex};
+  const auto peak_p = m.p().support_table().Climb(support.p, direction, &steps);
+  const auto peak_q = m.q().support_table().Climb(support.q, toward_q, &steps);
+  support = {peak_p.corner, peak_q.corner};
   const double length = direction.lpNorm<1>();
   const Eigen::Vector3d w = m.Point(support);
   const double error =
@@ -119,18 +117,17 @@ std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d
   const double turned_error = length * (3.1 * kRoundingUnit + m.pose().rotation_error());
   const bool q_certain = peak_q.certain && turned_error <= 0x1p-32 * length;
   if (peak_p.certain && q_certain) return Tier::kBound;
-  const double excess = (peak_p.certain ? 0.0 : Excess(m.p(), support.p, direction, 0.0)) +
-                        (q_certain ? 0.0 : Excess(m.q(), support.q, toward_q, turned_error));
+  const VertexPair vertices = m.Vertices(support);
+  const double excess = (peak_p.certain ? 0.0 : Excess(m.p(), vertices.p, direction, 0.0)) +
+                        (q_certain ? 0.0 : Excess(m.q(), vertices.q, toward_q, turned_error));
   if (height + 1.01 * m.scale() * excess < 0.0) return Tier::kBound;
   if (AllBelow(m, direction)) return Tier::kScan;
   return std::nullopt;
 }
 
-// All four signs at once with one bound for points no longer than the pair's size: what a proof of
-// an overlap costs nearly always.
-bool IsClearlyEnclosing(const MinkowskiDifference& m, const std::array<VertexPair, 3>& triangle) {
-  const Eigen::Vector3d x = m.Point(triangle[0]), y = m.Point(triangle[1]),
-                        z = m.Point(triangle[2]);
+bool IsClearlyEnclosing(const MinkowskiDifference& m,
+                        const std::array<Eigen::Vector3d, 3>& points) {
+  const auto& [x, y, z] = points;
   // As in Signs::Determinant, with every length at most sqrt(3) (size + E) =: L.
   const double e = m.coordinate_error(), l = 1.7320508075688774 * (m.size() + e);
   const double error =
@@ -142,7 +139,6 @@ bool IsClearlyEnclosing(const MinkowskiDifference& m, const std::array<VertexPai
 
 std::optional<Tier> ProveEnclosingTetrahedron(Signs* signs,
                                               const std::array<VertexPair, 3>& triangle) {
-  if (IsClearlyEnclosing(signs->difference(), triangle)) return Tier::kBound;
   const auto& [x, y, z] = triangle;
   const long exact_before = signs->exact_count();
   // With r = o - c and ai = vi - c, r = sum mu_i a_i by Cramer: mu_3 ~ det[a1 a2 r] = -det[v1 v2

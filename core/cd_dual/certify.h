@@ -22,7 +22,12 @@ namespace touchstone {
 // enough, every vertex is compared with the plain bound. Returns the tier that proved it, or
 // nothing; doubles only.
 std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d& direction,
-                                             VertexPair support);
+                                             CornerPair support);
+
+// Whether one bound for all points shows o = l0 c + sum li vi with l0, li > 0 over three points of
+// M, as MinkowskiDifference::Point has them, counterclockwise from outside: what a proof of overlap
+// costs nearly always.
+bool IsClearlyEnclosing(const MinkowskiDifference& m, const std::array<Eigen::Vector3d, 3>& points);
 
 // Proves o = l0 c + sum li vi with l0 > 0, li >= 0 over the points of `triangle`, counterclockwise
 // from outside. Returns kBound or kExact for the arithmetic that was needed; nothing if it is not

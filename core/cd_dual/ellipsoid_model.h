@@ -13,32 +13,28 @@
 
 namespace touchstone {
 
-struct Symmetric3 {
-  double xx, xy, xz, yy, yz, zz;
-};
-
 // Everything scaled as `m` is. Requires the central interior points as c for its proofs.
 class EllipsoidModel {
  public:
   TOUCHSTONE_INLINE explicit EllipsoidModel(const MinkowskiDifference& m)
       : m_(m), p_(m.p().bounding_ellipsoid()), q_(m.q().bounding_ellipsoid()) {
     const Eigen::Matrix3d& r = m.pose().rotation();
-    const Eigen::Matrix3d& l = q_.factor;
     const double s = m.scale();
+    double factor[3][3];  // R L_Q
     for (int i = 0; i < 3; ++i) {
-      factor_q_[i][0] = s * (r(i, 0) * l(0, 0) + r(i, 1) * l(1, 0) + r(i, 2) * l(2, 0));
-      factor_q_[i][1] = s * (r(i, 1) * l(1, 1) + r(i, 2) * l(2, 1));
-      factor_q_[i][2] = s * (r(i, 2) * l(2, 2));
+      const double x = s * r(i, 0), y = s * r(i, 1), z = s * r(i, 2);
+      factor[i][0] = x * q_.factor_xx + y * q_.factor_yx + z * q_.factor_zx;
+      factor[i][1] = y * q_.factor_yy + z * q_.factor_zy;
+      factor[i][2] = z * q_.factor_zz;
     }
     const auto dot = [&](int i, int j) {
-      return factor_q_[i][0] * factor_q_[j][0] + factor_q_[i][1] * factor_q_[j][1] +
-             factor_q_[i][2] * factor_q_[j][2];
+      return factor[i][0] * factor[j][0] + factor[i][1] * factor[j][1] +
+             factor[i][2] * factor[j][2];
     };
     moments_q_ = {dot(0, 0), dot(0, 1), dot(0, 2), dot(1, 1), dot(1, 2), dot(2, 2)};
     const double s2 = s * s;
-    const Eigen::Matrix3d& a = p_.moments;
-    moments_p_ = {s2 * a(0, 0), s2 * a(0, 1), s2 * a(0, 2),
-                  s2 * a(1, 1), s2 * a(1, 2), s2 * a(2, 2)};
+    const Symmetric3& a = p_.moments;
+    moments_p_ = {s2 * a.xx, s2 * a.xy, s2 * a.xz, s2 * a.yy, s2 * a.yz, s2 * a.zz};
   }
 
   // The normal, of any length, with which the ray from c through o leaves the ellipsoid whose
@@ -109,7 +105,6 @@ class EllipsoidModel {
   const MinkowskiDifference& m_;
   const BoundingEllipsoid& p_;
   const BoundingEllipsoid& q_;
-  double factor_q_[3][3];  // R L_Q
   Symmetric3 moments_p_, moments_q_;
 };
 

@@ -18,6 +18,11 @@ inline constexpr double kRoundingUnit = 0x1p-52;
 inline constexpr int kInteriorPoint = -1;
 inline constexpr VertexPair kInteriorDifference{kInteriorPoint, kInteriorPoint};  // c
 
+// Corners of P and Q by their places in the support tables (support_table.h).
+struct CornerPair {
+  int p = 0, q = 0;
+};
+
 // M = P - Q as the floating-point searches see it: its vertices a - b in P's frame, multiplied by a
 // power of two that brings the pair's size to about one, so that no product of three overflows or
 // loses its bits to underflow, whatever the scale of the bodies. Signs, ratios and signed travels
@@ -38,6 +43,19 @@ class MinkowskiDifference {
   Eigen::Vector3d Point(VertexPair pair) const {
     const Eigen::Vector3d& b = PointOfQ(pair.q);
     return scale_ * (PointOfP(pair.p) - (pose_.rotation() * b + pose_.translation()));
+  }
+  // The same of two corners, without the lists of vertices.
+  TOUCHSTONE_INLINE Eigen::Vector3d Point(CornerPair pair) const {
+    const SupportTable::Corner& a = p_.support_table().corner(pair.p);
+    const SupportTable::Corner& b = q_.support_table().corner(pair.q);
+    return scale_ * (Eigen::Vector3d(a.x, a.y, a.z) -
+                     (pose_.rotation() * Eigen::Vector3d(b.x, b.y, b.z) + pose_.translation()));
+  }
+  VertexPair Vertices(CornerPair pair) const {
+    return {p_.support_table().corner(pair.p).vertex, q_.support_table().corner(pair.q).vertex};
+  }
+  CornerPair Corners(VertexPair pair) const {
+    return {p_.support_table().CornerOfVertex(pair.p), q_.support_table().CornerOfVertex(pair.q)};
   }
   double coordinate_error() const { return coordinate_error_; }
 

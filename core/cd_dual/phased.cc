@@ -40,7 +40,7 @@ class PhasedSearch {
       if (early_exit_ && best.signed_distance > 0.0) {
         out_.proposal.kind = Proposal::Kind::kSeparatingDirection;
         out_.proposal.direction = best.normal;
-        out_.proposal.support = best.corner;
+        out_.proposal.support = m_.Corners(best.corner);
         return std::move(out_);
       }
       std::array<VertexPair, 2> edge;

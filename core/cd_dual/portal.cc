@@ -29,6 +29,14 @@ TOUCHSTONE_INLINE Symmetric2 Inverse(const Symmetric2& a) {
   return {s * a.yy, -s * a.xy, s * a.xx};
 }
 
+// Whether a support at this height along (nx, ny, nz) is worth a proof: only when its distance
+// stands out from the rounding of the point.
+TOUCHSTONE_INLINE bool IsOutside(double height, const MinkowskiDifference& m, double nx, double ny,
+                                 double nz) {
+  const double length = std::abs(nx) + std::abs(ny) + std::abs(nz);
+  return height < -4.0 * m.coordinate_error() * length;
+}
+
 class PortalSearch {
  public:
   TOUCHSTONE_INLINE PortalSearch(const MinkowskiDifference& m, bool early_exit, Proposal* proposal)
@@ -38,9 +46,14 @@ class PortalSearch {
         tolerance_(4.0 * m.coordinate_error()),
         proposal_(*proposal) {}
 
+  // `first` is the support along `normal`, where the model has its exit.
   TOUCHSTONE_INLINE void Run(const EllipsoidModel& model, const Eigen::Vector3d& normal,
-                             double reach_p, double reach_q, PhaseCounts* counts) {
-    if (Approach(model, normal, reach_p, reach_q) && (Surround() || Discover())) Refine();
+                             double reach_p, double reach_q, CornerPair first,
+                             PhaseCounts* counts) {
+    base_ = frame_.Point(first.p, first.q);
+    ++supports_;
+    Aim(model, normal, reach_p, reach_q);
+    if (Surround() || Discover()) Refine();
     counts->support_calls += supports_;
     counts->climb_steps += climb_steps_;
     counts->faces_visited += triangles_;
@@ -52,24 +65,17 @@ class PortalSearch {
   TOUCHSTONE_INLINE bool Probe(double nx, double ny, double nz, FramePoint* out) {
     *out = frame_.Look(nx, ny, nz);
     ++supports_;
-    if (!early_exit_ || !IsOutside(nx, ny, nz, *out)) return true;
+    if (!early_exit_ || !IsOutside(nx * out->x + ny * out->y + nz * out->z, m_, nx, ny, nz))
+      return true;
     proposal_.kind = Proposal::Kind::kSeparatingDirection;
     proposal_.direction = frame_.Direction(nx, ny, nz);
-    proposal_.support = frame_.Vertices(*out);
+    proposal_.support = {out->p, out->q};
     return false;
   }
 
-  // Only worth a proof when the distance stands out from the rounding of the point.
-  TOUCHSTONE_INLINE bool IsOutside(double nx, double ny, double nz, const FramePoint& w) const {
-    const double height = nx * w.x + ny * w.y + nz * w.z;
-    return height < -tolerance_ * (std::abs(nx) + std::abs(ny) + std::abs(nz));
-  }
-
-  // Starts where the model has its exit, then makes one Newton step with the shadow of the support
-  // there as gradient. Leaves the better of the two supports in base_, its direction in base_n_
-  // and the inverse of the model's Hessian in step_.
-  TOUCHSTONE_INLINE bool Approach(const EllipsoidModel& model, const Eigen::Vector3d& normal,
-                                  double reach_p, double reach_q) {
+  // The model's exit direction as (base_n_, 1), and the inverse of its Hessian there.
+  TOUCHSTONE_INLINE void Aim(const EllipsoidModel& model, const Eigen::Vector3d& normal,
+                             double reach_p, double reach_q) {
     const auto along = [&](const Eigen::Vector3d& v, int i) {
       return v[0] * frame_.in_p()(0, i) + v[1] * frame_.in_p()(1, i) + v[2] * frame_.in_p()(2, i);
     };
@@ -90,14 +96,8 @@ class PortalSearch {
       n = {};
       step_ = {};
     }
-    FramePoint first;
-    if (!Probe(n.x, n.y, 1.0, &first)) return false;
-    base_ = first;
     base_n_ = n;
-    return true;
   }
-
-  static TOUCHSTONE_INLINE double Squared(const FramePoint& w) { return w.x * w.x + w.y * w.y; }
 
   // Two side supports, meant to fall where the base's shadow would after a third of a turn either
   // way and twice as far out: together a triangle around the axis, as small as the base is near.
@@ -179,7 +179,11 @@ class PortalSearch {
 
   void Propose(Proposal::Kind kind) {
     proposal_.kind = kind;
-    for (int i = 0; i < 3; ++i) proposal_.triangle[i] = frame_.Vertices(x_[i]);
+    for (int i = 0; i < 3; ++i) {
+      const CornerPair corners{x_[i].p, x_[i].q};
+      proposal_.triangle[i] = m_.Vertices(corners);
+      if (kind == Proposal::Kind::kEnclosed) proposal_.points[i] = m_.Point(corners);
+    }
   }
 
   const MinkowskiDifference& m_;
@@ -216,7 +220,25 @@ void SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* co
     proposal->direction = normal;
     return;
   }
-  PortalSearch(m, early_exit, proposal).Run(model, normal, reach_p, reach_q, counts);
+  // The first look needs no frame.
+  const Eigen::Matrix3d& r = m.pose().rotation();
+  const auto in_q = [&](int i) {
+    return normal[0] * r(0, i) + normal[1] * r(1, i) + normal[2] * r(2, i);
+  };
+  const CornerPair first{m.p().support_table().Look(normal[0], normal[1], normal[2]),
+                         m.q().support_table().Look(-in_q(0), -in_q(1), -in_q(2))};
+  if (early_exit) {
+    const Eigen::Vector3d w = m.Point(first);
+    const double height = normal[0] * w[0] + normal[1] * w[1] + normal[2] * w[2];
+    if (IsOutside(height, m, normal[0], normal[1], normal[2])) {
+      proposal->kind = Proposal::Kind::kSeparatingDirection;
+      proposal->direction = normal;
+      proposal->support = first;
+      ++counts->support_calls;
+      return;
+    }
+  }
+  PortalSearch(m, early_exit, proposal).Run(model, normal, reach_p, reach_q, first, counts);
 }
 
 Proposal SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts) {

@@ -22,8 +22,10 @@ struct Proposal {
   };
   Kind kind = Kind::kStuck;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  VertexPair support;
+  CornerPair support;
   std::array<VertexPair, 3> triangle;
+  // kEnclosed: the triangle's points, as MinkowskiDifference::Point has them.
+  std::array<Eigen::Vector3d, 3> points;
 };
 
 // Keeps a triangle of M's vertices that the ray from c through o crosses, asks for the support

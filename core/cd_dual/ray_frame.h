@@ -79,10 +79,6 @@ class RayFrame {
                  table_q_.Climb(start.q, -(in_q_ * n), steps).corner);
   }
 
-  VertexPair Vertices(const FramePoint& point) const {
-    return {table_p_.corner(point.p).vertex, table_q_.corner(point.q).vertex};
-  }
-
   // The direction in P's frame.
   Eigen::Vector3d Direction(double nx, double ny, double nz) const {
     return in_p_ * Eigen::Vector3d(nx, ny, nz);

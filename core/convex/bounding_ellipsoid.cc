@@ -52,9 +52,11 @@ double LengthBound(const Vector3d& v) {
 
 BoundingEllipsoid BoundVertices(std::span<const Vector3d> vertices, const Vector3d& middle) {
   BoundingEllipsoid bound;
-  bound.factor = LowerFactor(SecondMoments(vertices));
-  const Matrix3d& l = bound.factor;
-  bound.moments = l * l.transpose();
+  const Matrix3d l = LowerFactor(SecondMoments(vertices));
+  bound.factor_xx = l(0, 0), bound.factor_yx = l(1, 0), bound.factor_zx = l(2, 0);
+  bound.factor_yy = l(1, 1), bound.factor_zy = l(2, 1), bound.factor_zz = l(2, 2);
+  const Matrix3d a = l * l.transpose();
+  bound.moments = {a(0, 0), a(0, 1), a(0, 2), a(1, 1), a(1, 2), a(2, 2)};
   for (const Vector3d& vertex : vertices) {
     const Vector3d x = vertex - middle;
     Vector3d y;  // about l^-1 x

@@ -7,6 +7,11 @@
 
 namespace touchstone {
 
+// A symmetric 3 x 3 matrix.
+struct Symmetric3 {
+  double xx = 1.0, xy = 0.0, xz = 0.0, yy = 1.0, yz = 0.0, zz = 1.0;
+};
+
 // An ellipsoid and a ball around a body's first interior point m: every point x of the body is
 // m + factor y + z with |y| <= radius and |z| <= slack, and |x - m| <= ball_radius. Bounds, valid
 // in any rounding mode. So along a direction n the body reaches no further than
@@ -15,8 +20,10 @@ namespace touchstone {
 // radius 1, for points spread evenly over an ellipsoid. That makes sqrt(n.moments n) the searches'
 // guess of the reach.
 struct BoundingEllipsoid {
-  Eigen::Matrix3d factor = Eigen::Matrix3d::Identity();  // lower triangular, positive diagonal
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Identity();
+  // Row and column; lower triangular, with positive diagonal.
+  double factor_xx = 1.0, factor_yx = 0.0, factor_zx = 0.0, factor_yy = 1.0, factor_zy = 0.0,
+         factor_zz = 1.0;
+  Symmetric3 moments;
   double radius = 0.0;
   double slack = 0.0;
   double ball_radius = 0.0;

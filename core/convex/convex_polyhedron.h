@@ -92,6 +92,15 @@ class ConvexPolyhedron {
   // At least the distance between any two points of the body, and less than twice that.
   double diameter_bound() const { return data_->diameter_bound; }
 
+  // Asks for the memory that any query will touch.
+  void Prefetch() const {
+    const auto* first = reinterpret_cast<const char*>(data_.get());
+    for (std::size_t i = 0; i < sizeof(ConvexPolyhedronData::interior) + sizeof(BoundingEllipsoid);
+         i += 64)
+      __builtin_prefetch(first + i);
+    data_->support.Prefetch();
+  }
+
   // What SupportVertex (support.h) climbs on.
   const SupportTable& support_table() const { return data_->support; }
 

@@ -169,7 +169,7 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
   }
   data->bounding_ellipsoid = BoundVertices(data->vertices, data->interior[0]);
   data->corner_margins = internal::CornerMargins(*data);
-  data->support = SupportTable(*data);
+  data->support.Build(*data);
   ConvexPolyhedron body(std::move(data));
   assert(body.FindValidationError().ok());
   return body;

@@ -19,8 +19,15 @@ struct Edge {
 };
 
 // What a ConvexPolyhedron holds; its accessors tell the meaning. Lists per face and per vertex are
-// flat: those of face f are [face_begin[f], face_begin[f + 1]).
-struct ConvexPolyhedronData {
+// flat: those of face f are [face_begin[f], face_begin[f + 1]). What every query reads comes first,
+// in one run of cache lines.
+struct alignas(64) ConvexPolyhedronData {
+  std::array<Eigen::Vector3d, 2> interior;
+  double max_coordinate = 0.0;
+  double diameter_bound = 0.0;
+  BoundingEllipsoid bounding_ellipsoid;
+  SupportTable support;
+
   std::vector<Eigen::Vector3d> vertices;
   std::vector<int> face_begin, face_vertices, face_edges;
   std::vector<std::array<int, 3>> face_planes;
@@ -28,12 +35,7 @@ struct ConvexPolyhedronData {
   std::vector<int> facet_of_face;
   std::vector<Edge> edges;
   std::vector<int> vertex_begin, vertex_neighbors, vertex_edges, vertex_faces;
-  std::array<Eigen::Vector3d, 2> interior;
-  BoundingEllipsoid bounding_ellipsoid;
-  double max_coordinate = 0.0;
-  double diameter_bound = 0.0;
   std::vector<double> corner_margins;
-  SupportTable support;
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }
   int face_count() const { return static_cast<int>(face_begin.size()) - 1; }

@@ -31,10 +31,10 @@
 #include <optional>
 #include <vector>
 
+#include "touchstone/core/base/orientation.h"
 #include "touchstone/core/base/status.h"
 #include "touchstone/core/convex/convex_polyhedron_data.h"
 #include "touchstone/core/convex/face_planes_internal.h"
-#include "touchstone/core/base/orientation.h"
 
 namespace touchstone::internal {
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "touchstone/core/base/orientation.h"
 #include "touchstone/core/base/status.h"
 #include "touchstone/core/convex/convex_polyhedron_data.h"
-#include "touchstone/core/base/orientation.h"
 
 namespace touchstone::internal {
 

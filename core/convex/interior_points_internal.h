@@ -2,9 +2,9 @@
 #ifndef TOUCHSTONE_CORE_CONVEX_INTERIOR_POINTS_INTERNAL_H_
 #define TOUCHSTONE_CORE_CONVEX_INTERIOR_POINTS_INTERNAL_H_
 
+#include "touchstone/core/base/orientation.h"
 #include "touchstone/core/base/status.h"
 #include "touchstone/core/convex/convex_polyhedron_data.h"
-#include "touchstone/core/base/orientation.h"
 
 namespace touchstone::internal {
 

@@ -62,47 +62,62 @@ class CornerGraph {
 
 }  // namespace
 
-SupportTable::SupportTable(const ConvexPolyhedronData& data) {
+void SupportTable::Build(const ConvexPolyhedronData& data) {
   AddCorners(data);
-  corner_count() <= kScanLimit ? FillScan() : FillCells();
+  const auto offset = [this](const void* member) {
+    return static_cast<std::int32_t>(static_cast<const char*>(member) -
+                                     reinterpret_cast<const char*>(this));
+  };
+  hot_bytes_ =
+      offset(scan_count_ > 0 ? static_cast<const void*>(&scan_corners_[corner_count_ - 1] + 1)
+                             : &scan_[0]);
+  if (scan_count_ == 0) FillCells();
 }
 
 void SupportTable::AddCorners(const ConvexPolyhedronData& data) {
   const CornerGraph graph(data);
   const int n = data.vertex_count();
   center_ = data.interior[0];
-  double extent = 0.0;
   corner_of_vertex_.assign(n, -1);
-  int block_count = 0;
+  std::vector<Corner> corners;
+  double extent = 0.0;
   for (int v = 0; v < n; ++v) {
     if (!graph.IsCorner(v)) continue;
     const Eigen::Vector3d& x = data.vertices[v];
     extent = std::max(extent, (x - center_).cwiseAbs().maxCoeff());
-    corner_of_vertex_[v] = corner_count();
-    corners_.push_back({x[0], x[1], x[2], v, -1});
-    ++block_count;
+    corner_of_vertex_[v] = static_cast<std::int32_t>(corners.size());
+    corners.push_back({x[0], x[1], x[2], v, -1});
   }
+  corner_count_ = static_cast<std::int32_t>(corners.size());
   // Extents lie within 1e-117 and 1e101.
   int exponent = 0;
   std::frexp(extent, &exponent);
   lane_scale_ = std::ldexp(1.0, -exponent);
-  for (Corner& corner : corners_) {
-    const int spare = graph.bends(corner.vertex) - kOwnNeighbors;
-    if (spare <= 0) continue;
-    corner.more_blocks = block_count;
-    block_count += (spare + kOwnNeighbors - 1) / kOwnNeighbors;
+
+  if (corner_count_ <= kScanLimit) {
+    std::copy(corners.begin(), corners.end(), scan_corners_.begin());
+    FillScan();
+  } else {
+    int block_count = corner_count_;
+    for (Corner& corner : corners) {
+      const int spare = graph.bends(corner.vertex) - kOwnNeighbors;
+      if (spare <= 0) continue;
+      corner.more_blocks = block_count;
+      block_count += (spare + kOwnNeighbors - 1) / kOwnNeighbors;
+    }
+    blocks_.resize(block_count);
+    for (int i = 0; i < corner_count_; ++i) blocks_[i].corner = corners[i];
   }
-  blocks_.resize(block_count);
   std::vector<int> neighbors;
-  for (int i = 0; i < corner_count(); ++i) {
-    const int v = corners_[i].vertex;
+  for (int i = 0; i < corner_count_; ++i) {
+    const int v = corners[i].vertex;
     neighbors.clear();
     for (int k = data.vertex_begin[v]; k < data.vertex_begin[v + 1]; ++k) {
       if (!graph.IsBend(k)) continue;
       const int w = graph.FollowEdge(k, [&](int between) { corner_of_vertex_[between] = i; });
       neighbors.push_back(corner_of_vertex_[w]);
     }
-    FillBlocks(i, neighbors);
+    if (scan_count_ == 0) FillBlocks(i, neighbors);
   }
   // Vertices inside a facet stand for some corner of it.
   std::vector<int> corner_of_facet(data.face_count(), -1);
@@ -119,44 +134,45 @@ void SupportTable::AddCorners(const ConvexPolyhedronData& data) {
   }
 }
 
-void SupportTable::PutLane(Block* block, int lane, int corner) const {
-  const Corner& c = corners_[corner];
-  block->x[lane] = static_cast<float>(lane_scale_ * (c.x - center_[0]));
-  block->y[lane] = static_cast<float>(lane_scale_ * (c.y - center_[1]));
-  block->z[lane] = static_cast<float>(lane_scale_ * (c.z - center_[2]));
-  block->link[lane] = corner;
+void SupportTable::PutLane(Lanes* lanes, int lane, int i) const {
+  const Corner& c = corner(i);
+  lanes->x[lane] = static_cast<float>(lane_scale_ * (c.x - center_[0]));
+  lanes->y[lane] = static_cast<float>(lane_scale_ * (c.y - center_[1]));
+  lanes->z[lane] = static_cast<float>(lane_scale_ * (c.z - center_[2]));
+  lanes->link[lane] = i;
 }
 
 void SupportTable::FillBlocks(int corner, std::span<const int> neighbors) {
   const int count = static_cast<int>(neighbors.size());
   for (int first = 0; first < count; first += kOwnNeighbors) {
     const int further = first / kOwnNeighbors;
-    Block* block = &blocks_[further == 0 ? corner : corners_[corner].more_blocks + further - 1];
-    PutLane(block, 0, corner);
+    Lanes* lanes =
+        &blocks_[further == 0 ? corner : blocks_[corner].corner.more_blocks + further - 1].lanes;
+    PutLane(lanes, 0, corner);
     for (int lane = 1; lane < kLaneCount; ++lane) {
       const int neighbor = first + lane - 1;
-      PutLane(block, lane, neighbors[neighbor < count ? neighbor : first]);
+      PutLane(lanes, lane, neighbors[neighbor < count ? neighbor : first]);
     }
-    if (further > 0) block->link[0] = (count - first + kOwnNeighbors - 1) / kOwnNeighbors;
+    if (further > 0) lanes->link[0] = (count - first + kOwnNeighbors - 1) / kOwnNeighbors;
   }
 }
 
 void SupportTable::FillScan() {
-  scan_count_ = (corner_count() + kLaneCount - 1) / kLaneCount;
+  scan_count_ = (corner_count_ + kLaneCount - 1) / kLaneCount;
   for (int i = 0; i < scan_count_ * kLaneCount; ++i) {
-    PutLane(&scan_[i / kLaneCount], i % kLaneCount, std::min(i, corner_count() - 1));
+    PutLane(&scan_[i / kLaneCount], i % kLaneCount, std::min(i, corner_count_ - 1));
   }
 }
 
 void SupportTable::FillCells() {
-  resolution_ = static_cast<int>(std::sqrt(0.5 * kCellsPerCorner * corner_count())) + 1;
+  resolution_ = static_cast<int>(std::sqrt(0.5 * kCellsPerCorner * corner_count_)) + 1;
   resolution_ = std::min(resolution_, kMaxResolution);
   half_resolution_ = 0.5F * (1.0F - 0x1p-18F) * static_cast<float>(resolution_);
   const std::size_t cell_count = 2 * static_cast<std::size_t>(resolution_) * resolution_;
-  const bool narrow = corner_count() <= 0x10000;
-  narrow ? cells_.resize(cell_count) : wide_cells_.resize(cell_count);
+  is_wide_ = corner_count_ > 0x10000;
+  is_wide_ ? wide_cells_.resize(cell_count) : cells_.resize(cell_count);
   const auto get = [&](std::size_t cell) -> int {
-    return narrow ? cells_[cell] : wide_cells_[cell];
+    return is_wide_ ? wide_cells_[cell] : cells_[cell];
   };
   // A cell is only where climbs begin, so its corner need not be extreme. What one cell leaves of
   // its share of looks others may use; together they are linear, however many edges a corner has.
@@ -175,10 +191,10 @@ void SupportTable::FillCells() {
         if (budget > 0) {
           corner = ClimbScaled(corner, x, y, lower == 0 ? z : -z, &budget, &steps).corner;
         }
-        if (narrow) {
-          cells_[cell] = static_cast<std::uint16_t>(corner);
-        } else {
+        if (is_wide_) {
           wide_cells_[cell] = corner;
+        } else {
+          cells_[cell] = static_cast<std::uint16_t>(corner);
         }
         budget += kFillBudget;
       }
@@ -188,10 +204,8 @@ void SupportTable::FillCells() {
 
 bool SupportTable::Rescale(double* x, double* y, double* z) {
   const double largest = std::max({std::abs(*x), std::abs(*y), std::abs(*z)});
-  if (!std::isfinite(*x + *y + *z) &&
-      !(std::isfinite(*x) && std::isfinite(*y) && std::isfinite(*z)))
-    return false;
-  if (largest == 0.0) return false;
+  const bool finite = std::isfinite(*x) && std::isfinite(*y) && std::isfinite(*z);
+  if (!finite || largest == 0.0) return false;
   int exponent = 0;
   std::frexp(largest, &exponent);
   *x = std::ldexp(*x, -exponent);
@@ -202,9 +216,45 @@ bool SupportTable::Rescale(double* x, double* y, double* z) {
 
 // Over the middle of the body: its rounding refers to the body's extent, not to its distance from
 // the frame's origin.
-double SupportTable::Height(int corner, double x, double y, double z) const {
-  const Corner& c = corners_[corner];
+double SupportTable::Height(const Corner& c, double x, double y, double z) const {
   return x * (c.x - center_[0]) + y * (c.y - center_[1]) + z * (c.z - center_[2]);
+}
+
+template <class Visit>
+int SupportTable::VisitRivals(int corner, float x, float y, float z, Visit visit) const {
+  float heights[kLaneCount];
+  const auto visit_lanes = [&](const Lanes& lanes, float low, int first_lane) {
+    unsigned rivals = 0;
+    for (int k = first_lane; k < kLaneCount; ++k) {
+      rivals |= static_cast<unsigned>(heights[k] >= low) << k;
+    }
+    for (; rivals != 0; rivals &= rivals - 1) {
+      const int rival = lanes.link[std::countr_zero(rivals)];
+      if (rival != corner) visit(rival);
+    }
+  };
+  if (scan_count_ > 0) {
+    const Lanes& own = scan_[corner / kLaneCount];
+    const int lane = corner % kLaneCount;
+    const float low = x * own.x[lane] + y * own.y[lane] + z * own.z[lane] - kSlack;
+    for (int i = 0; i < scan_count_; ++i) {
+      Heights<VectorLanes>(scan_[i], x, y, z).Store(heights);
+      visit_lanes(scan_[i], low, 0);
+    }
+    return scan_count_;
+  }
+  const Block& block = blocks_[corner];
+  Heights<VectorLanes>(block.lanes, x, y, z).Store(heights);
+  const float low = heights[0] - kSlack;
+  visit_lanes(block.lanes, low, 1);
+  if (block.corner.more_blocks < 0) return 1;
+  const Block* more = &blocks_[block.corner.more_blocks];
+  const int count = more->lanes.link[0];
+  for (int i = 0; i < count; ++i) {
+    Heights<VectorLanes>(more[i].lanes, x, y, z).Store(heights);
+    visit_lanes(more[i].lanes, low, 1);
+  }
+  return 1 + count;
 }
 
 // Ends, because each move strictly raises the height, and the height of a corner is one number.
@@ -212,39 +262,21 @@ TOUCHSTONE_VECTOR_CLONES
 SupportTable::Peak SupportTable::ClimbScaled(int start, double x, double y, double z, long* budget,
                                              long* steps) const {
   const auto fx = static_cast<float>(x), fy = static_cast<float>(y), fz = static_cast<float>(z);
-  Peak peak{start, true};
-  double height = Height(start, x, y, z);
+  Peak peak{start, false};
+  double height = Height(corner(start), x, y, z);
   while (*budget > 0) {
     int next = peak.corner;
-    double next_height = height;
-    bool certain = true;
-    const Block* block = &blocks_[peak.corner];
-    for (int more = -1; more != 0;) {
-      --*budget;
-      unsigned rivals = RivalLanes(*block, fx, fy, fz);
-      certain = certain && rivals == 0;
-      for (; rivals != 0; rivals &= rivals - 1) {
-        const int rival = block->link[std::countr_zero(rivals)];
-        const double rival_height = Height(rival, x, y, z);
-        if (rival_height > next_height) {
-          next = rival;
-          next_height = rival_height;
-        }
+    peak.certain = true;
+    *budget -= VisitRivals(peak.corner, fx, fy, fz, [&](int rival) {
+      peak.certain = false;
+      const double rival_height = Height(corner(rival), x, y, z);
+      if (rival_height > height) {
+        next = rival;
+        height = rival_height;
       }
-      if (more < 0) {
-        const int first = corners_[peak.corner].more_blocks;
-        if (first < 0) break;
-        block = &blocks_[first];
-        more = block->link[0];
-      } else {
-        ++block;
-        --more;
-      }
-    }
-    peak.certain = certain;
+    });
     if (next == peak.corner) return peak;
     peak.corner = next;
-    height = next_height;
     ++*steps;
   }
   peak.certain = false;
@@ -266,14 +298,14 @@ SupportTable::Peak SupportTable::Climb(int start, const Eigen::Vector3d& directi
 
 TOUCHSTONE_VECTOR_CLONES
 int SupportTable::Find(const Eigen::Vector3d& direction, int start, long* steps) const {
-  const int corner =
+  const int from =
       start >= 0 ? corner_of_vertex_[start] : Look(direction[0], direction[1], direction[2]);
-  return corners_[Climb(corner, direction, steps).corner].vertex;
+  return corner(Climb(from, direction, steps).corner).vertex;
 }
 
-std::size_t SupportTable::bytes() const {
-  return sizeof *this + corners_.capacity() * sizeof(Corner) + blocks_.capacity() * sizeof(Block) +
-         cells_.capacity() * sizeof cells_[0] + wide_cells_.capacity() * sizeof wide_cells_[0] +
+std::size_t SupportTable::heap_bytes() const {
+  return blocks_.capacity() * sizeof(Block) + cells_.capacity() * sizeof cells_[0] +
+         wide_cells_.capacity() * sizeof wide_cells_[0] +
          corner_of_vertex_.capacity() * sizeof corner_of_vertex_[0];
 }
 

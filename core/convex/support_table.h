@@ -28,8 +28,10 @@ struct ConvexPolyhedronData;
 //
 // Two ways to ask. `Look` is what searches do: one cell, one block of eight single-precision lanes,
 // no loop, no branch that depends on the answer; nearly always right, never relied upon. `Climb`
-// goes on to a corner that no neighbour beats in doubles, and says whether the lanes alone prove
-// it.
+// goes on to a corner that no neighbour beats in doubles, and says whether the lanes prove it.
+//
+// Memory is laid out for pairs that come from memory: a small body is one run of cache lines; a
+// large one costs a look the lines of one cell and one block, the corner's doubles among them.
 class SupportTable {
  public:
   // A corner of the body, as doubles.
@@ -40,11 +42,15 @@ class SupportTable {
   };
 
   SupportTable() = default;
-  // Requires topology, facets and the first interior point. Complexity: O(n).
-  explicit SupportTable(const ConvexPolyhedronData& data);
+  SupportTable(const SupportTable&) = delete;
+  SupportTable& operator=(const SupportTable&) = delete;
+  // Fills an empty table. Requires topology, facets and the first interior point. Complexity: O(n).
+  void Build(const ConvexPolyhedronData& data);
 
-  int corner_count() const { return static_cast<int>(corners_.size()); }
-  const Corner& corner(int i) const { return corners_[i]; }
+  int corner_count() const { return corner_count_; }
+  TOUCHSTONE_INLINE const Corner& corner(int i) const {
+    return scan_count_ > 0 ? scan_corners_[i] : blocks_[i].corner;
+  }
   // The corner that is vertex v, or one near it.
   int CornerOfVertex(int v) const { return corner_of_vertex_[v]; }
 
@@ -69,20 +75,36 @@ class SupportTable {
   // The vertex found from the vertex `start` (-1: from the table); adds the moves to *steps.
   int Find(const Eigen::Vector3d& direction, int start, long* steps) const;
 
-  // What it holds, in bytes.
-  std::size_t bytes() const;
+  // Asks for the memory that any query will touch.
+  TOUCHSTONE_INLINE void Prefetch() const {
+    const auto* first = reinterpret_cast<const char*>(this);
+    for (std::int32_t i = 0; i < hot_bytes_; i += 64) __builtin_prefetch(first + i);
+  }
+
+  // What it holds beyond its own size, in bytes.
+  std::size_t heap_bytes() const;
 
  private:
-  // A corner in lane 0 and up to seven of its neighbours, relative to the body's middle and over a
-  // power of two, so that all lie within [-1, 1]; `link` is their corners. Spare lanes repeat a
-  // neighbour. The further blocks of a corner with more neighbours follow each other; there link[0]
-  // is how many are left, itself included.
-  struct alignas(64) Block {
+  // Eight corners, relative to the body's middle and over a power of two, so that all lie within
+  // [-1, 1], and which they are.
+  struct Lanes {
     float x[kLaneCount], y[kLaneCount], z[kLaneCount];
     std::int32_t link[kLaneCount];
   };
-  static_assert(sizeof(Block) == 128);  // two cache lines
+  // A corner in lane 0 and up to seven of its neighbours; spare lanes repeat a neighbour. The
+  // further blocks of a corner with more neighbours follow each other; there link[0] is how many
+  // are left, itself included.
+  struct alignas(64) Block {
+    Lanes lanes;
+    Corner corner;
+  };
+  static_assert(sizeof(Block) == 192);  // three cache lines
   static constexpr int kOwnNeighbors = kLaneCount - 1;
+
+  // Bodies of up to so many corners keep all of them in lanes and need no blocks and no cells.
+  static constexpr int kScanLimit = 32;
+  static_assert(kScanLimit == kTagMask + 1);
+  static constexpr std::array<std::int32_t, kLaneCount> kLaneTags = {0, 1, 2, 3, 4, 5, 6, 7};
 
   // How far single precision may be off when two lanes are compared, for a direction of 1-norm 1
   // and coordinates within [-1, 1]. With u = 2^-23 (any rounding mode): a coordinate and a
@@ -93,32 +115,12 @@ class SupportTable {
   // direction in doubles and underflow disappear in the rest.
   static constexpr float kSlack = 0x1p-19F;  // 16 u
 
-  // Bodies of up to so many corners keep all of them in lanes and need no table.
-  static constexpr int kScanLimit = 32;
-  static_assert(kScanLimit == kTagMask + 1);
-  static constexpr std::array<std::int32_t, kLaneCount> kLaneTags = {0, 1, 2, 3, 4, 5, 6, 7};
-
-  void AddCorners(const ConvexPolyhedronData& data);
-  void FillCells();
-  void FillScan();
-  void FillBlocks(int corner, std::span<const int> neighbors);
-  // The lanes that may be as far along as lane 0, or further.
-  static TOUCHSTONE_INLINE unsigned RivalLanes(const Block& block, float x, float y, float z) {
-    float heights[kLaneCount];
-    Heights<VectorLanes>(block, x, y, z).Store(heights);
-    const float low = heights[0] - kSlack;
-    unsigned rivals = 0;
-    for (int k = 1; k < kLaneCount; ++k) rivals |= static_cast<unsigned>(heights[k] >= low) << k;
-    return rivals;
-  }
-  void PutLane(Block* block, int lane, int corner) const;
-
-  template <class Lanes>
-  static TOUCHSTONE_INLINE Lanes Heights(const Block& block, float x, float y, float z) {
-    return x * Lanes::Load(block.x) + y * Lanes::Load(block.y) + z * Lanes::Load(block.z);
+  template <class LaneType>
+  static TOUCHSTONE_INLINE LaneType Heights(const Lanes& lanes, float x, float y, float z) {
+    return x * LaneType::Load(lanes.x) + y * LaneType::Load(lanes.y) + z * LaneType::Load(lanes.z);
   }
 
-  template <class Lanes>
+  template <class LaneType>
   TOUCHSTONE_INLINE int LookWith(double x, double y, double z) const {
     auto fx = static_cast<float>(x), fy = static_cast<float>(y), fz = static_cast<float>(z);
     float sum = std::abs(fx) + std::abs(fy) + std::abs(fz);
@@ -128,15 +130,15 @@ class SupportTable {
       sum = std::abs(fx) + std::abs(fy) + std::abs(fz);
     }
     if (scan_count_ > 0) {
-      Lanes top = Heights<Lanes>(scan_[0], fx, fy, fz).Tagged(scan_[0].link);
+      LaneType top = Heights<LaneType>(scan_[0], fx, fy, fz).Tagged(scan_[0].link);
       for (int i = 1; i < scan_count_; ++i) {
-        top = Lanes::Larger(top, Heights<Lanes>(scan_[i], fx, fy, fz).Tagged(scan_[i].link));
+        top = LaneType::Larger(top, Heights<LaneType>(scan_[i], fx, fy, fz).Tagged(scan_[i].link));
       }
       return top.TagOfLargest();
     }
-    const Block& block = blocks_[cells_.empty() ? wide_cells_[Cell(fx, fy, fz, sum)]
-                                                : cells_[Cell(fx, fy, fz, sum)]];
-    return block.link[Heights<Lanes>(block, fx, fy, fz).Tagged(kLaneTags.data()).TagOfLargest()];
+    const std::size_t cell = Cell(fx, fy, fz, sum);
+    const Lanes& lanes = blocks_[is_wide_ ? wide_cells_[cell] : cells_[cell]].lanes;
+    return lanes.link[Heights<LaneType>(lanes, fx, fy, fz).Tagged(kLaneTags.data()).TagOfLargest()];
   }
 
   // Directions with z >= 0, and those with z < 0, as the square [-1, 1]^2 each: the octahedron
@@ -154,22 +156,35 @@ class SupportTable {
   // A very long or very short direction brought near 1; false for zero, infinite or NaN.
   static bool Rescale(double* x, double* y, double* z);
 
-  double Height(int corner, double x, double y, double z) const;
+  void AddCorners(const ConvexPolyhedronData& data);
+  void PutLane(Lanes* lanes, int lane, int corner) const;
+  void FillBlocks(int corner, std::span<const int> neighbors);
+  void FillCells();
+  void FillScan();
+
+  double Height(const Corner& corner, double x, double y, double z) const;
+  // Calls visit(corner) for every corner that may be as far along as `corner` or further: in a
+  // small body of all others, else of its neighbours. Returns how many blocks it looked at.
+  template <class Visit>
+  TOUCHSTONE_INLINE int VisitRivals(int corner, float x, float y, float z, Visit visit) const;
   // Climbs from a corner; (x, y, z) has a 1-norm of about 1. `budget` bounds the blocks looked at:
   // it is reduced by their number, and a climb that used it up stops where it is.
   Peak ClimbScaled(int start, double x, double y, double z, long* budget, long* steps) const;
 
-  std::vector<Corner> corners_;
+  std::int32_t hot_bytes_ = 64;  // from the start of this object
+  std::int32_t corner_count_ = 0;
+  std::int32_t scan_count_ = 0;  // lanes in use in scan_; 0 where the table serves
+  std::int32_t resolution_ = 0;
+  float half_resolution_ = 0.0F;
+  bool is_wide_ = false;
+  double lane_scale_ = 1.0;
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   std::vector<Block> blocks_;             // of the corners, then the further blocks
   std::vector<std::uint16_t> cells_;      // corners; 2 resolution_^2 of them
   std::vector<std::int32_t> wide_cells_;  // instead, for bodies of more than 2^16 corners
   std::vector<std::int32_t> corner_of_vertex_;
-  std::array<Block, kScanLimit / kLaneCount> scan_{};
-  int scan_count_ = 0;  // blocks of scan_ in use; 0 where the table serves
-  std::int32_t resolution_ = 0;
-  float half_resolution_ = 0.0F;
-  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
-  double lane_scale_ = 1.0;
+  alignas(64) std::array<Lanes, kScanLimit / kLaneCount> scan_{};
+  std::array<Corner, kScanLimit> scan_corners_{};
 };
 
 }  // namespace touchstone

@@ -80,7 +80,7 @@ TEST(ProveSeparatingDirection, DeclinesADirectionThatDoesNotSeparate) {
   MinkowskiDifference m(box, box, apart);
   Signs signs(m, Certainty::kExact);
   PhaseCounts counts;
-  const auto support = [&](const Eigen::Vector3d& n) { return m.Support(n, {}, &counts); };
+  const auto support = [&](const Eigen::Vector3d& n) { return m.Corners(m.Support(n, {}, &counts)); };
   const Eigen::Vector3d good(1, 0.1, 0.01), bad(0, 1, 0.1);
   EXPECT_TRUE(ProveSeparatingDirection(&signs, good, support(good)));
   EXPECT_FALSE(ProveSeparatingDirection(&signs, bad, support(bad)));
@@ -98,7 +98,7 @@ TEST(ProveSeparatingDirection, TiesCostNoScanWhereTheMarginSuffices) {
   PhaseCounts counts;
   const Eigen::Vector3d n = turned * Eigen::Vector3d(0, 0, 1);
   for (int v = 0; v < 8; ++v) EXPECT_NEAR(box.corner_margin(v), 1.0 / std::sqrt(3.0), 1e-12);
-  const auto tier = ProveSeparatingDirection(&signs, n, m.Support(n, {}, &counts));
+  const auto tier = ProveSeparatingDirection(&signs, n, m.Corners(m.Support(n, {}, &counts)));
   ASSERT_TRUE(tier);
   EXPECT_EQ(*tier, Tier::kBound);
 }
@@ -114,9 +114,9 @@ TEST(ProveSeparatingDirection, DeclinesAFalseSupportThatWouldSeparate) {
     const Eigen::Vector3d n(0.3, -0.5, 0.9);
     for (int a = 0; a < x.p.vertex_count(); ++a) {
       for (int b = 0; b < x.q.vertex_count(); ++b) {
-        if (!(n.dot(m.Point({a, b})) < -1e-9)) continue;
+        if (!(n.dot(m.Point(VertexPair{a, b})) < -1e-9)) continue;
         ++tried;
-        const bool proven = ProveSeparatingDirection(&signs, n, {a, b}).has_value();
+        const bool proven = ProveSeparatingDirection(&signs, n, m.Corners({a, b})).has_value();
         bool truly = true;
         for (int i = 0; i < x.p.vertex_count() && truly; ++i) {
           for (int j = 0; j < x.q.vertex_count() && truly; ++j) {
