@@ -17,14 +17,19 @@ namespace {
 class Query {
  public:
   Query(const ConvexPolyhedron& p, const ConvexPolyhedron& q, const RelativePose& pose,
-        const CollideOptions& options, CollideResult* result)
+        const CollideOptions& options, CollideCache* cache, CollideResult* result)
       : result_(*result),
         m_(p, q, pose),
         signs_(m_, options.certainty),
         options_(options),
+        cache_(options.search == Search::kPortal ? cache : nullptr),
         log_{&result_.counts, options.trace ? &result_.trace : nullptr} {}
 
   void Run() {
+    if (cache_ != nullptr && AnswerWarm()) {
+      Finish();
+      return;
+    }
     const bool apart = ChooseInteriorDifference(&m_);
     if (!apart && options_.early_exit && options_.search != Search::kPublished &&
         FindCoincidence()) {
@@ -49,6 +54,23 @@ class Query {
   }
 
  private:
+  bool AnswerWarm() {
+    if (options_.early_exit) return AnswerFromCache(&m_, &signs_, cache_, &result_);
+    return false;
+  }
+
+  // What the next query may begin with.
+  void Remember(const Proposal& proposal) {
+    if (cache_ == nullptr) return;
+    cache_->has_direction = !proposal.has_triangle && result_.verdict == Verdict::kSeparate;
+    cache_->direction = proposal.direction;
+    cache_->support = proposal.support;
+    cache_->has_triangle = proposal.has_triangle;
+    cache_->triangle = proposal.corners;
+    cache_->interior_p = m_.interior_p();
+    cache_->interior_q = m_.interior_q();
+  }
+
   void Finish() {
     result_.interior_p = m_.interior_p();
     result_.interior_q = m_.interior_q();
@@ -87,15 +109,17 @@ class Query {
 
   void RunPortal() {
     result_.phase = Phase::kPortal;
-    Settle(SearchPortal(m_, options_.early_exit, &log_.of(Phase::kPortal)));
+    Proposal proposal = SearchPortal(m_, options_.early_exit, &log_.of(Phase::kPortal));
+    Settle(&proposal);
+    Remember(proposal);
     ReportFinalClass();
   }
 
   void RunPhased() {
-    const PhasedOutcome outcome = SearchPhased(m_, options_.early_exit, &log_);
+    PhasedOutcome outcome = SearchPhased(m_, options_.early_exit, &log_);
     result_.phase = outcome.phase;
     for (int i = 0; i < 3; ++i) Report(i, outcome.ran[i], outcome.best[i]);
-    Settle(outcome.proposal);
+    Settle(&outcome.proposal);
     ReportFinalClass();
   }
 
@@ -137,14 +161,15 @@ class Query {
   }
 
   // Proves what a search proposes, or finds what is true instead.
-  void Settle(const Proposal& proposal) {
+  void Settle(Proposal* proposed) {
+    const Proposal& proposal = *proposed;
     using Kind = Proposal::Kind;
     if (proposal.kind == Kind::kApartByBounds) {
       result_.phase = Phase::kStart;
       return ConcludeApart(proposal.direction, Tier::kBound);
     }
     if (proposal.kind == Kind::kSeparatingDirection) {
-      if (ConcludeSeparate(proposal.direction, proposal.support)) return;
+      if (ConcludeSeparate(proposal.direction, &proposed->support)) return;
     } else if (proposal.kind == Kind::kEnclosed) {
       if (IsClearlyEnclosing(m_, proposal.points)) {
         return ConcludeOverlap(proposal.triangle, Tier::kBound);
@@ -179,7 +204,7 @@ class Query {
     result_.tier = Tier::kExact;
   }
 
-  bool ConcludeSeparate(const Eigen::Vector3d& direction, CornerPair support) {
+  bool ConcludeSeparate(const Eigen::Vector3d& direction, CornerPair* support) {
     const auto tier = ProveSeparatingDirection(&signs_, direction, support);
     if (!tier) return false;
     ConcludeApart(direction, *tier);
@@ -243,24 +268,27 @@ class Query {
   void ConcludeVerdictAlone(const std::array<VertexPair, 3>& triangle) {
     if (ConcludeEnclosed(triangle)) return;
     const Eigen::Vector3d normal = signs_.Plane(triangle).normal;
-    ConcludeSeparate(normal, m_.Corners(m_.Support(normal, triangle[0], &log_.of(Phase::kPortal))));
+    CornerPair support = m_.Corners(m_.Support(normal, triangle[0], &log_.of(Phase::kPortal)));
+    ConcludeSeparate(normal, &support);
   }
 
   CollideResult& result_;
   MinkowskiDifference m_;
   Signs signs_;
   const CollideOptions& options_;
+  CollideCache* const cache_;
   SearchLog log_;
 };
 
 }  // namespace
 
 CollideResult Collide(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
-                      const RelativePose& pose, const CollideOptions& options) {
+                      const RelativePose& pose, const CollideOptions& options,
+                      CollideCache* cache) {
   p.Prefetch();
   q.Prefetch();
   CollideResult result;
-  Query(p, q, pose, options, &result).Run();
+  Query(p, q, pose, options, cache, &result).Run();
   return result;
 }
 

@@ -3,6 +3,7 @@
 #define TOUCHSTONE_CORE_CD_DUAL_CD_DUAL_H_
 
 #include "touchstone/core/base/relative_pose.h"
+#include "touchstone/core/cd_dual/cache.h"
 #include "touchstone/core/cd_dual/result.h"
 #include "touchstone/core/convex/convex_polyhedron.h"
 
@@ -27,8 +28,14 @@ struct CollideOptions {
 // visits no triangle twice (exact_portal.h). Complexity: O(log n) to O(sqrt n) a round in practice,
 // a dozen rounds. Source: Choi, Li, Wang, Cameron, "Collision Detection of Convex Polyhedra Based
 // on Duality Transformation", sections 3 and 4.
+//
+// With a `cache` of the pair's last query, the verdict may come from there, proven anew; it is
+// left ready for the next. Cold and warm answers agree: the same verdict, and where the exit face
+// is asked for the same d and g within their errors. Only kPortal under early_exit looks for a
+// verdict in it; kPortal looks there for an exit face, too.
 CollideResult Collide(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
-                      const RelativePose& pose, const CollideOptions& options = {});
+                      const RelativePose& pose, const CollideOptions& options = {},
+                      CollideCache* cache = nullptr);
 
 }  // namespace touchstone
 

@@ -98,13 +98,14 @@ int FaceByIdentity(const Signs& signs, const FacetPlane& plane, Body body, int v
 }  // namespace
 
 std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d& direction,
-                                             CornerPair support) {
+                                             CornerPair* start, bool scan) {
   const MinkowskiDifference& m = signs->difference();
   const Eigen::Vector3d toward_q = -m.DirectionToQ(direction);
   long steps = 0;
-  const auto peak_p = m.p().support_table().Climb(support.p, direction, &steps);
-  const auto peak_q = m.q().support_table().Climb(support.q, toward_q, &steps);
-  support = {peak_p.corner, peak_q.corner};
+  const auto peak_p = m.p().support_table().Climb(start->p, direction, &steps);
+  const auto peak_q = m.q().support_table().Climb(start->q, toward_q, &steps);
+  const CornerPair support{peak_p.corner, peak_q.corner};
+  *start = support;
   const double length = direction.lpNorm<1>();
   const Eigen::Vector3d w = m.Point(support);
   const double error =
@@ -121,7 +122,7 @@ std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d
   const double excess = (peak_p.certain ? 0.0 : Excess(m.p(), vertices.p, direction, 0.0)) +
                         (q_certain ? 0.0 : Excess(m.q(), vertices.q, toward_q, turned_error));
   if (height + 1.01 * m.scale() * excess < 0.0) return Tier::kBound;
-  if (AllBelow(m, direction)) return Tier::kScan;
+  if (scan && AllBelow(m, direction)) return Tier::kScan;
   return std::nullopt;
 }
 

@@ -12,17 +12,18 @@
 namespace touchstone {
 
 // Proves that the whole of M lies strictly on the negative side of `direction` (P's frame, taken
-// exactly), so that the bodies are separate. `support` is the vertex of M proposed as extreme.
+// exactly), so that the bodies are separate. `support` is where climbs to the extreme vertex of M
+// begin.
 //
-// First locally: `support` is on the negative side, its vertices are corners, and on each body no
+// First locally: where the climbs end is on the negative side, and on each body no
 // neighbour of the corner lies further along. A convex body lies in the cone of a corner's edges,
 // so a local maximum is a global one, and the test costs the corner's degree. (Not so at a vertex
 // within an edge or a facet, whose neighbours may all be level while the body lies above.) Where a
 // neighbour is too close to tell, the corner's margin bounds what it can matter. If that is not
-// enough, every vertex is compared with the plain bound. Returns the tier that proved it, or
-// nothing; doubles only.
+// enough, every vertex is compared with the plain bound, if `scan` allows it. Returns the tier that
+// proved it, or nothing; doubles only. Leaves in *support the corners that reach furthest.
 std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d& direction,
-                                             CornerPair support);
+                                             CornerPair* support, bool scan = true);
 
 // Whether one bound for all points shows o = l0 c + sum li vi with l0, li > 0 over three points of
 // M, as MinkowskiDifference::Point has them, counterclockwise from outside: what a proof of overlap

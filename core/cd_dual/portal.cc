@@ -70,6 +70,7 @@ class PortalSearch {
     proposal_.kind = Proposal::Kind::kSeparatingDirection;
     proposal_.direction = frame_.Direction(nx, ny, nz);
     proposal_.support = {out->p, out->q};
+    NameCorners();
     return false;
   }
 
@@ -179,11 +180,16 @@ class PortalSearch {
 
   void Propose(Proposal::Kind kind) {
     proposal_.kind = kind;
+    NameCorners();
     for (int i = 0; i < 3; ++i) {
-      const CornerPair corners{x_[i].p, x_[i].q};
-      proposal_.triangle[i] = m_.Vertices(corners);
-      if (kind == Proposal::Kind::kEnclosed) proposal_.points[i] = m_.Point(corners);
+      proposal_.triangle[i] = m_.Vertices(proposal_.corners[i]);
+      if (kind == Proposal::Kind::kEnclosed) proposal_.points[i] = m_.Point(proposal_.corners[i]);
     }
+  }
+
+  void NameCorners() {
+    proposal_.has_triangle = triangles_ > 0;
+    for (int i = 0; i < 3; ++i) proposal_.corners[i] = {x_[i].p, x_[i].q};
   }
 
   const MinkowskiDifference& m_;

@@ -23,6 +23,8 @@ struct Proposal {
   Kind kind = Kind::kStuck;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   CornerPair support;
+  bool has_triangle = false;  // whether `corners` is one that the ray crosses
+  std::array<CornerPair, 3> corners;
   std::array<VertexPair, 3> triangle;
   // kEnclosed: the triangle's points, as MinkowskiDifference::Point has them.
   std::array<Eigen::Vector3d, 3> points;

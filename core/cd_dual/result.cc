@@ -55,7 +55,7 @@ std::string_view ToString(CertificateKind value) {
 
 std::string_view ToString(Phase value) {
   static constexpr std::string_view kNames[] = {"start",   "FaceVertex", "VertexFace", "EdgeEdge",
-                                                "overlay", "portal",     "exact"};
+                                                "overlay", "portal",     "exact",      "cache"};
   return Name(kNames, value);
 }
 

@@ -112,8 +112,9 @@ enum class Phase {
   kOverlay,     // kPhased: the move across the overlay of the two Gauss maps
   kPortal,      // the portal search: kPortal, and kPhased where parallel features stop its phases
   kExact,       // the exact portal search that finishes what doubles could not
+  kCache,       // what the caller's cache held, proven anew
 };
-inline constexpr int kPhaseCount = 7;
+inline constexpr int kPhaseCount = 8;
 
 // What a phase says of the best face it found.
 enum class PhaseClaim {

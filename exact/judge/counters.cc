@@ -75,9 +75,12 @@ void CheckPhaseAndTier(const JudgeContext& context) {
   const bool undecided = result.verdict == Verdict::kUndecided;
   const auto bad = [&](const char* detail) { context.Add(FindingKind::kBadCounters, detail); };
   const bool at_start = result.phase == Phase::kStart && !undecided;
-  const bool by_bounds = result.verdict == Verdict::kSeparate &&
-                         result.termination == Termination::kEarlyExit &&
-                         result.tier == Tier::kBound;
+  const bool decided_early =
+      result.termination == Termination::kEarlyExit && result.tier == Tier::kBound;
+  const bool by_bounds = result.verdict == Verdict::kSeparate && decided_early;
+  if (result.phase == Phase::kCache && (search != Search::kPortal || !decided_early)) {
+    bad("a cache answers kPortal, early and in doubles");
+  }
   if (at_start ? !(coincident || by_bounds) : coincident) {
     bad("decided before any search, but neither c = o nor do bounds separate; or not, and c = o");
   }

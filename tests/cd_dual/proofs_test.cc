@@ -74,17 +74,23 @@ TEST(Signs, FilterNeverContradictsExactSigns) {
   EXPECT_GT(settled, asked / 2) << "the filter should settle something";
 }
 
+std::optional<Tier> Proves(Signs* signs, const Eigen::Vector3d& direction, CornerPair support) {
+  return ProveSeparatingDirection(signs, direction, &support);
+}
+
 TEST(ProveSeparatingDirection, DeclinesADirectionThatDoesNotSeparate) {
   const ConvexPolyhedron box = MustBuild(Box({1, 1, 1}));
   const RelativePose apart = MustPose(Eigen::Matrix3d::Identity(), {3, 0, 0});
   MinkowskiDifference m(box, box, apart);
   Signs signs(m, Certainty::kExact);
   PhaseCounts counts;
-  const auto support = [&](const Eigen::Vector3d& n) { return m.Corners(m.Support(n, {}, &counts)); };
+  const auto support = [&](const Eigen::Vector3d& n) {
+    return m.Corners(m.Support(n, {}, &counts));
+  };
   const Eigen::Vector3d good(1, 0.1, 0.01), bad(0, 1, 0.1);
-  EXPECT_TRUE(ProveSeparatingDirection(&signs, good, support(good)));
-  EXPECT_FALSE(ProveSeparatingDirection(&signs, bad, support(bad)));
-  EXPECT_FALSE(ProveSeparatingDirection(&signs, -good, support(-good)));
+  EXPECT_TRUE(Proves(&signs, good, support(good)));
+  EXPECT_FALSE(Proves(&signs, bad, support(bad)));
+  EXPECT_FALSE(Proves(&signs, -good, support(-good)));
 }
 
 TEST(ProveSeparatingDirection, TiesCostNoScanWhereTheMarginSuffices) {
@@ -98,7 +104,7 @@ TEST(ProveSeparatingDirection, TiesCostNoScanWhereTheMarginSuffices) {
   PhaseCounts counts;
   const Eigen::Vector3d n = turned * Eigen::Vector3d(0, 0, 1);
   for (int v = 0; v < 8; ++v) EXPECT_NEAR(box.corner_margin(v), 1.0 / std::sqrt(3.0), 1e-12);
-  const auto tier = ProveSeparatingDirection(&signs, n, m.Corners(m.Support(n, {}, &counts)));
+  const auto tier = Proves(&signs, n, m.Corners(m.Support(n, {}, &counts)));
   ASSERT_TRUE(tier);
   EXPECT_EQ(*tier, Tier::kBound);
 }
@@ -116,7 +122,7 @@ TEST(ProveSeparatingDirection, DeclinesAFalseSupportThatWouldSeparate) {
       for (int b = 0; b < x.q.vertex_count(); ++b) {
         if (!(n.dot(m.Point(VertexPair{a, b})) < -1e-9)) continue;
         ++tried;
-        const bool proven = ProveSeparatingDirection(&signs, n, m.Corners({a, b})).has_value();
+        const bool proven = Proves(&signs, n, m.Corners({a, b})).has_value();
         bool truly = true;
         for (int i = 0; i < x.p.vertex_count() && truly; ++i) {
           for (int j = 0; j < x.q.vertex_count() && truly; ++j) {
