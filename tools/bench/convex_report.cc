@@ -98,6 +98,32 @@ void PrintConvexBench(std::ostream& out, std::span<const ConvexBenchRow> rows, T
   }
 }
 
+void PrintSummary(std::ostream& out, std::span<const ConvexBenchRow> rows, TableStyle style) {
+  std::vector<double> gaps;
+  std::vector<std::pair<BenchMode, int>> lines;
+  for (const ConvexBenchRow& row : rows) {
+    if (row.shape != "ellipsoid-2" || row.engine != kDefaultEngine) continue;
+    AddOnce(gaps, row.gap);
+    AddOnce(lines, {row.mode, row.n});
+  }
+  std::stable_sort(lines.begin(), lines.end());
+  Table table;
+  std::vector<std::string> head = {"ns, ours / best other, at gap", "n"};
+  for (const double gap : gaps) head.push_back(ShortDouble(gap));
+  table.Row(head);
+  for (const auto& [mode, n] : lines) {
+    std::vector<std::string> cells = {std::string(ToString(mode)), std::to_string(n)};
+    for (const double gap : gaps) {
+      const ConvexBenchRow* ours = FindRow(rows, {kDefaultEngine, "ellipsoid-2", n, gap, mode});
+      const ConvexBenchRow* other = FindBestOther(rows, "ellipsoid-2", n, gap, mode);
+      cells.push_back((ours == nullptr ? "-" : Nanoseconds(ours->median_ns)) + " / " +
+                      (other == nullptr ? "-" : Nanoseconds(other->median_ns)));
+    }
+    table.Row(cells);
+  }
+  Print(out, table, style);
+}
+
 void PrintTargets(std::ostream& out, std::span<const Target> targets, TableStyle style) {
   Table table;
   table.Row({"measure", "target", "measured", "met"});

@@ -23,6 +23,9 @@ enum class TableStyle { kText, kMarkdown };
 // A table for each shape, n and mode: an engine a line, a gap a column, then its wrong and its
 // undecided answers over all gaps.
 void PrintConvexBench(std::ostream& out, std::span<const ConvexBenchRow> rows, TableStyle style);
+// What a reader wants first: ellipsoids 2:1:1, our default against the fastest other without a
+// wrong verdict in these rows, a mode and n a line, a gap a column.
+void PrintSummary(std::ostream& out, std::span<const ConvexBenchRow> rows, TableStyle style);
 void PrintTargets(std::ostream& out, std::span<const Target> targets, TableStyle style);
 
 }  // namespace touchstone

@@ -16,7 +16,7 @@
 namespace touchstone {
 namespace {
 
-constexpr std::string_view kOurs = "portal";
+constexpr std::string_view kOurs = kDefaultEngine;
 constexpr std::string_view kOursInDoubles = "portal-float";
 constexpr std::array<std::string_view, 4> kOthers = {"libccd-mpr", "libccd-mpr+support",
                                                      "fcl-libccd", "bullet-f64"};
@@ -64,7 +64,6 @@ class Comparison {
       gaps_.insert(row.gap);
       sizes_.insert(row.n);
       shapes_.insert(row.shape);
-      if (row.wrong > 0) wrong_.insert(row.engine);
     }
   }
 
@@ -89,8 +88,8 @@ class Comparison {
     for (const double gap : gaps_) {
       if (!filter(gap)) continue;
       const ConvexBenchRow* ours = Find(kOurs, shape, n, gap, mode);
-      const double other = BestOther(shape, n, gap, mode);
-      if (ours != nullptr && std::isfinite(other)) ratios.Add(other / ours->median_ns, gap);
+      const ConvexBenchRow* other = FindBestOther(rows_, shape, n, gap, mode);
+      if (ours != nullptr && other != nullptr) ratios.Add(other->median_ns / ours->median_ns, gap);
     }
     return ratios;
   }
@@ -98,23 +97,7 @@ class Comparison {
  private:
   const ConvexBenchRow* Find(std::string_view engine, const std::string& shape, int n, double gap,
                              BenchMode mode) const {
-    for (const ConvexBenchRow& row : rows_) {
-      if (row.engine == engine && row.shape == shape && row.n == n && row.gap == gap &&
-          row.mode == mode && row.median_ns > 0.0) {
-        return &row;
-      }
-    }
-    return nullptr;
-  }
-
-  double BestOther(const std::string& shape, int n, double gap, BenchMode mode) const {
-    double best = std::numeric_limits<double>::infinity();
-    for (const std::string_view engine : kOthers) {
-      if (wrong_.contains(std::string(engine))) continue;
-      if (const ConvexBenchRow* row = Find(engine, shape, n, gap, mode))
-        best = std::min(best, row->median_ns);
-    }
-    return best;
+    return FindRow(rows_, {engine, shape, n, gap, mode});
   }
 
   void Add(std::string measure, std::string target, std::string measured, bool met) {
@@ -269,7 +252,9 @@ class Comparison {
       const ConvexBenchRow* ours = Find(kOurs, "ellipsoid-2", 1000, gap, BenchMode::kWarm);
       if (ours == nullptr) continue;
       const double target = std::fabs(gap) <= kContactGap ? 60.0 : 30.0;
-      const double times = BestOther("ellipsoid-2", 1000, gap, BenchMode::kWarm) / ours->median_ns;
+      const ConvexBenchRow* other =
+          FindBestOther(rows_, "ellipsoid-2", 1000, gap, BenchMode::kWarm);
+      const double times = other == nullptr ? 0.0 : other->median_ns / ours->median_ns;
       const bool overlap = gap < 0.0;
       Add("coherent by 0.1 degrees, n = 1000, gap " + ShortDouble(gap),
           "<= " + ShortDouble(target) + " ns" + (overlap ? ", >= 20 times the best other" : ""),
@@ -296,7 +281,7 @@ class Comparison {
   const ConvexProfile* profile_;
   std::set<double> gaps_;
   std::set<int> sizes_;
-  std::set<std::string> shapes_, wrong_;
+  std::set<std::string> shapes_;
   std::vector<Target> targets_;
 };
 
@@ -320,6 +305,30 @@ std::vector<Target> CompareInstructionSets(const InstructionSets& sets) {
 }
 
 }  // namespace
+
+const ConvexBenchRow* FindRow(std::span<const ConvexBenchRow> rows, const RowKey& key) {
+  for (const ConvexBenchRow& row : rows) {
+    if (row.engine == key.engine && row.shape == key.shape && row.n == key.n &&
+        row.gap == key.gap && row.mode == key.mode && row.median_ns > 0.0) {
+      return &row;
+    }
+  }
+  return nullptr;
+}
+
+const ConvexBenchRow* FindBestOther(std::span<const ConvexBenchRow> rows, std::string_view shape,
+                                    int n, double gap, BenchMode mode) {
+  const ConvexBenchRow* best = nullptr;
+  for (const std::string_view engine : kOthers) {
+    const bool is_wrong = std::any_of(rows.begin(), rows.end(), [&](const ConvexBenchRow& row) {
+      return row.engine == engine && row.wrong > 0;
+    });
+    const ConvexBenchRow* row = FindRow(rows, {engine, shape, n, gap, mode});
+    if (!is_wrong && row != nullptr && (best == nullptr || row->median_ns < best->median_ns))
+      best = row;
+  }
+  return best;
+}
 
 std::vector<Target> CompareWithTargets(std::span<const ConvexBenchRow> rows,
                                        const ConvexProfile* profile,

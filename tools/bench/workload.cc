@@ -23,6 +23,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr std::string_view kParallel = "parallel";
 constexpr int kFewestMixedBodies = 16;
 
 std::optional<double> EllipsoidAspect(const std::string& shape) {
@@ -60,10 +61,22 @@ ConvexPolyhedron Prism(Random& random, int n, double half_height) {
   });
 }
 
-// The lattice points in a ball of radius r have a hull of about 3.4 r^1.5 corners (measured at
-// n = 20 to 20 000). The centre is random; coordinates are integers times a power of two.
+ConvexPolyhedron Bipyramid(Random& random, int n) {
+  return HullOf([&] {
+    std::vector<Vector3d> points = {{0.0, 0.0, -100.0}, {0.0, 0.0, 100.0}};
+    for (int i = 0; i < std::max(3, n - 2); ++i) {
+      const Eigen::Vector2d point = 100.0 * CirclePoint(random);
+      points.emplace_back(point[0], point[1], 0.0);
+    }
+    return points;
+  });
+}
+
+// The lattice points in a ball of radius r have a hull of about 6 r^1.5 corners (measured). The
+// centre is random; coordinates are integers times a power of two.
+// centre is random; coordinates are integers times a power of two.
 ConvexPolyhedron GridHull(Random& random, int n) {
-  const double radius = std::pow(n / 3.4, 2.0 / 3.0);
+  const double radius = std::pow(n / 6.0, 2.0 / 3.0);
   const double scale = std::ldexp(1.0, static_cast<int>(std::lround(std::log2(100.0 / radius))));
   return HullOf([&] {
     const Vector3d center(random.Unit(), random.Unit(), random.Unit());
@@ -115,8 +128,9 @@ std::optional<ConvexPolyhedron> MakeBody(const WorkloadKey& key, Random& random)
   if (const auto aspect = EllipsoidAspect(key.shape)) {
     return EllipsoidBody(random, key.n, Vector3d(100.0 * *aspect, 100.0, 100.0));
   }
-  if (key.shape == "prism") return Prism(random, key.n, 100.0);
+  if (key.shape == "prism" || key.shape == kParallel) return Prism(random, key.n, 100.0);
   if (key.shape == "slab") return Prism(random, key.n, 2.0);
+  if (key.shape == "bipyramid") return Bipyramid(random, key.n);
   if (key.shape == "grid") return GridHull(random, key.n);
   std::vector<ConvexPolyhedron> near;
   for (const ConvexPolyhedron& hull : MeshHulls(key.meshes_dir)) {
@@ -141,6 +155,23 @@ bool AddBodies(const WorkloadKey& key, int count, Random& random, Workload* work
   return true;
 }
 
+struct Course {
+  Matrix3d rotation;
+  Vector3d direction;
+};
+
+Course RandomCourse(const WorkloadKey& key, Random& random) {
+  if (key.shape == kParallel) {
+    // The third row and column are exact, and so are the heights of the faces.
+    const Eigen::Vector2d x = CirclePoint(random);
+    Course course{Matrix3d::Identity(), Vector3d::UnitZ()};
+    course.rotation.topLeftCorner<2, 2>() << x[0], -x[1], x[1], x[0];
+    return course;
+  }
+  const Matrix3d rotation = random.Rotation();
+  return {rotation, random.SpherePoint()};
+}
+
 void AddLine(Workload& workload, int p, int q, const Matrix3d& rotation,
              const Vector3d& direction) {
   workload.lines.push_back(
@@ -157,7 +188,8 @@ Matrix3d RotationAbout(const Vector3d& axis, double angle) {
 }  // namespace
 
 bool IsBenchShape(const std::string& shape) {
-  constexpr std::array<std::string_view, 4> kNames = {"prism", "slab", "grid", "mesh"};
+  constexpr std::array<std::string_view, 6> kNames = {"prism", "slab", "bipyramid",
+                                                      "grid",  "mesh", kParallel};
   return EllipsoidAspect(shape) || std::find(kNames.begin(), kNames.end(), shape) != kNames.end();
 }
 
@@ -166,8 +198,8 @@ Workload MakeRepeatWorkload(const WorkloadKey& key, int orientations) {
   Workload workload;
   if (!AddBodies(key, 2, random, &workload)) return {};
   for (int i = 0; i < orientations; ++i) {
-    const Matrix3d rotation = random.Rotation();
-    AddLine(workload, 0, 1, rotation, random.SpherePoint());
+    const Course course = RandomCourse(key, random);
+    AddLine(workload, 0, 1, course.rotation, course.direction);
   }
   return workload;
 }
@@ -180,8 +212,8 @@ Workload MakeMixedWorkload(const WorkloadKey& key, int pairs, int vertices) {
   for (int i = 0; i < pairs; ++i) {
     const int p = static_cast<int>(random.Below(count));
     const int q = static_cast<int>((p + 1 + random.Below(count - 1)) % count);
-    const Matrix3d rotation = random.Rotation();
-    AddLine(workload, p, q, rotation, random.SpherePoint());
+    const Course course = RandomCourse(key, random);
+    AddLine(workload, p, q, course.rotation, course.direction);
   }
   return workload;
 }
@@ -191,10 +223,11 @@ Workload MakeWarmWorkload(const WorkloadKey& key, int motions, int frames, doubl
   Workload workload;
   if (!AddBodies(key, 2, random, &workload)) return {};
   for (int i = 0; i < motions; ++i) {
-    const Matrix3d first = random.Rotation();
-    const Vector3d axis = random.SpherePoint(), direction = random.SpherePoint();
+    const Course first = RandomCourse(key, random);
+    const Vector3d axis = key.shape == kParallel ? Vector3d::UnitZ() : random.SpherePoint();
     for (int k = 0; k < frames; ++k) {
-      AddLine(workload, 0, 1, RotationAbout(axis, k * degrees * (kPi / 180.0)) * first, direction);
+      AddLine(workload, 0, 1, RotationAbout(axis, k * degrees * (kPi / 180.0)) * first.rotation,
+              first.direction);
     }
   }
   return workload;

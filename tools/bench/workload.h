@@ -34,8 +34,11 @@ struct Workload {
 //   ellipsoid-A   the hull of n random points on an ellipsoid 100 A : 100 : 100
 //   prism, slab   a polygon of n/2 random points of a circle of radius 100, between two parallel
 //                 planes 200 or 4 apart: two large facets, n/2 long edges
+//   bipyramid     the polygon of n - 2 points between two apexes: two corners with n - 2 edges
 //   grid          the hull of the lattice points in a ball, of about n corners: coplanar and
 //                 parallel faces everywhere
+//   parallel      the prism, standing upright on another that is turned about its axis and moved
+//                 along it: a large face on a large face, exactly parallel at any gap
 //   mesh          the hulls of real meshes with n/2 to 2 n corners, size 100 (needs a folder)
 bool IsBenchShape(const std::string& shape);
 

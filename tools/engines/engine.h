@@ -31,7 +31,8 @@ bool IsWrong(TouchConvention convention, Verdict answer, Verdict truth);
 struct EngineValues {
   std::optional<double> distance;     // Euclidean, of a separate pair
   std::optional<double> depth;        // least translation that separates an overlapping pair
-  std::optional<double> exit_travel;  // g of core/cd_dual/result.h
+  std::optional<double> exit_travel;  // g of core/cd_dual/result.h, from these interior points
+  int interior_p = 0, interior_q = 0;
 };
 
 // A body as an engine stores it. Immutable; any number of pairs may use one.

@@ -13,13 +13,18 @@ struct Shape : EngineShape {
   ConvexPolyhedron body;
 };
 
+struct Cache : EngineCache {
+  CollideCache cache;
+};
+
 class Pair : public EnginePair {
  public:
   Pair(const Shape& p, const Shape& q, const RelativePose& pose, const CollideOptions& options)
       : p_(p), q_(q), pose_(pose), options_(options) {}
 
-  Verdict Ask(EngineCache* /*cache*/) const override {
-    return Collide(p_.body, q_.body, pose_, options_).verdict;
+  Verdict Ask(EngineCache* cache) const override {
+    CollideCache* last = cache == nullptr ? nullptr : &static_cast<Cache*>(cache)->cache;
+    return Collide(p_.body, q_.body, pose_, options_, last).verdict;
   }
 
   EngineValues Measure() const override {
@@ -27,7 +32,11 @@ class Pair : public EnginePair {
     options.early_exit = false;
     const CollideResult result = Collide(p_.body, q_.body, pose_, options);
     EngineValues values;
-    if (result.exit_travel) values.exit_travel = result.exit_travel->value;
+    if (result.exit_travel) {
+      values.exit_travel = result.exit_travel->value;
+      values.interior_p = result.interior_p;
+      values.interior_q = result.interior_q;
+    }
     return values;
   }
 
@@ -51,6 +60,10 @@ class TouchstoneEngine : public Engine {
                                     const RelativePose& pose) const override {
     return std::make_unique<Pair>(static_cast<const Shape&>(p), static_cast<const Shape&>(q), pose,
                                   options_);
+  }
+  std::unique_ptr<EngineCache> MakeCache() const override {
+    // The paper's search and the phased one keep nothing.
+    return options_.search == Search::kPortal ? std::make_unique<Cache>() : nullptr;
   }
 
  private:

@@ -38,6 +38,7 @@ void AddBench(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bench", "Time engines side by side");
   command->require_subcommand(1);
   AddBenchConvex(*command, exit_code);
+  AddBenchSupport(*command, exit_code);
 }
 
 }  // namespace touchstone

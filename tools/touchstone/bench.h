@@ -16,6 +16,7 @@ std::vector<EngineDescription> SelectEngines(const std::vector<std::string>& nam
 
 // What can be timed: one subcommand of `bench` a file.
 void AddBenchConvex(CLI::App& bench, int& exit_code);
+void AddBenchSupport(CLI::App& bench, int& exit_code);
 
 }  // namespace touchstone
 

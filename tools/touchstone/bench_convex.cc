@@ -62,7 +62,7 @@ std::vector<std::string> CheckedShapes(const ConvexArguments& arguments,
   for (const std::string& shape : shapes) {
     if (!IsBenchShape(shape))
       throw BadInput{"--shapes: '" + shape +
-                     "' is none of ellipsoid-ASPECT, prism, slab, grid, mesh"};
+                     "' is none of ellipsoid-ASPECT, prism, slab, bipyramid, grid, parallel, mesh"};
     if (shape == "mesh" && arguments.meshes.empty())
       throw BadInput{"--shapes mesh: no folder of meshes given (--meshes DIR)"};
   }
@@ -174,10 +174,11 @@ std::optional<InstructionSets> MakeInstructionSets() {
 
 int RunConvexCommand(const ConvexArguments& arguments) {
   const ConvexBenchOptions options = MakeOptions(arguments);
-  std::ofstream csv, tables, targets_file;
+  std::ofstream csv, tables, summary, targets_file;
   if (!arguments.csv.empty()) csv = OpenForWriting(arguments.csv);
   if (!arguments.markdown.empty()) {
     tables = OpenForWriting(arguments.markdown + "/bench-convex.md");
+    summary = OpenForWriting(arguments.markdown + "/bench-summary.md");
     targets_file = OpenForWriting(arguments.markdown + "/bench-targets.md");
   }
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -196,6 +197,7 @@ int RunConvexCommand(const ConvexArguments& arguments) {
   if (csv.is_open()) WriteConvexBenchCsv(csv, rows);
   if (tables.is_open()) {
     PrintConvexBench(tables, rows, TableStyle::kMarkdown);
+    PrintSummary(summary, rows, TableStyle::kMarkdown);
     PrintTargets(targets_file, targets, TableStyle::kMarkdown);
   }
   if (arguments.json) {
@@ -224,8 +226,9 @@ void AddBenchConvex(CLI::App& bench, int& exit_code) {
   command->add_option("--engines", arguments->engines, "names, separated by commas; all")
       ->delimiter(',');
   command
-      ->add_option("--shapes", arguments->shapes,
-                   "ellipsoid-ASPECT, prism, slab, grid, mesh, separated by commas")
+      ->add_option(
+          "--shapes", arguments->shapes,
+          "ellipsoid-ASPECT, prism, slab, bipyramid, grid, parallel, mesh, separated by commas")
       ->delimiter(',');
   command->add_option("-n,--sizes", arguments->sizes, "vertices a body, separated by commas")
       ->delimiter(',');
@@ -247,7 +250,7 @@ void AddBenchConvex(CLI::App& bench, int& exit_code) {
   command->add_option("--meshes", arguments->meshes, "folder of meshes for the shape of that name");
   command->add_option("--csv", arguments->csv, "write the rows to this file, too");
   command->add_option("--markdown", arguments->markdown,
-                      "folder for the tables as bench-convex.md and bench-targets.md");
+                      "folder for the tables: bench-convex.md, bench-summary.md, bench-targets.md");
   command->add_flag("--profile", arguments->profile,
                     "measure percentiles, tiers, memory and build, too (the whole program does)");
   command->add_flag("--json", arguments->json, "print JSON: an array of rows");
