@@ -53,6 +53,8 @@ class PlacedPair {
 
   // True length of an integer length.
   Real ToLength(const Real& length) const { return Scale(length / scale_real_, exponent_); }
+  // The other way.
+  Real FromLength(const Real& length) const { return Scale(length * scale_real_, -exponent_); }
   mpq_class ToLengthSquared(const Integer& squared) const;
 
   // Doubles of the placement, in true units: x_p = rotation x_q + translation and c. Every number

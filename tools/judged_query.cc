@@ -30,6 +30,26 @@ bool SharesKind(const std::vector<NamedFinding>& findings, const std::string& ki
                      [&](const auto& finding) { return finding.kind == kind; });
 }
 
+// The pose moved by a thousandth of the bodies' size: the frame before.
+RelativePose FrameBefore(const PlacedPair& pair) {
+  const double size = std::max(pair.p.max_coordinate(), pair.q.max_coordinate());
+  const Eigen::Vector3d move = 1e-3 * size * Eigen::Vector3d(1.0, -0.5, 0.25);
+  const auto& world = pair.pose.world();
+  const auto moved =
+      world ? RelativePose::FromWorld(world->first,
+                                      {world->second.rotation, world->second.translation + move})
+            : RelativePose::Make(pair.pose.rotation(), pair.pose.translation() + move);
+  return moved.ok() ? *moved : pair.pose;
+}
+
+// With a cache of the frame before, and all that a query may be asked for.
+CollideResult AskWarm(const PlacedPair& pair, CollideOptions options) {
+  options.common_point = true;
+  CollideCache cache;
+  Collide(pair.p, pair.q, FrameBefore(pair), options, &cache);
+  return Collide(pair.p, pair.q, pair.pose, options, &cache);
+}
+
 // The paper's pseudocode from the same c, in exact arithmetic. c = o is outside it.
 void JudgePaper(const PlacedPair& pair, const exact::ExactBody& p, const exact::ExactBody& q,
                 const CollideOptions& options, bool always, JudgedQuery& query) {
@@ -61,7 +81,7 @@ exact::ExactBody ExactBodies::Get(const ConvexPolyhedron& body) {
 JudgeDepth DepthForOneQuery(const PlacedPair& pair) {
   constexpr long kConstruct = 4000;
   const long product = static_cast<long>(pair.p.vertex_count()) * pair.q.vertex_count();
-  return {.phase_maxima = true, .construct = product <= kConstruct, .twin = true};
+  return {.phase_maxima = true, .construct = product <= kConstruct, .twin = true, .warm = true};
 }
 
 JudgedQuery Ask(const PlacedPair& pair, const CollideOptions& options) {
@@ -78,12 +98,19 @@ JudgedQuery AskAndJudge(const PlacedPair& pair, const CollideOptions& options,
   const Clock::time_point start = Clock::now();
   const exact::ExactBody p = bodies.Get(pair.p);
   const exact::ExactBody q = bodies.Get(pair.q);
-  query.findings = Named(exact::Judge(p, q, pair.pose, query.result,
-                                      {.search = options.search,
-                                       .certainty = options.certainty,
-                                       .early_exit = options.early_exit,
-                                       .check_phase_maxima = depth.phase_maxima,
-                                       .construct = depth.construct}));
+  exact::JudgeOptions how{.search = options.search,
+                          .certainty = options.certainty,
+                          .early_exit = options.early_exit,
+                          .check_phase_maxima = depth.phase_maxima,
+                          .construct = depth.construct};
+  query.findings = Named(exact::Judge(p, q, pair.pose, query.result, how));
+  if (depth.warm && options.search == Search::kPortal) {
+    const CollideResult warm = AskWarm(pair, options);
+    how.construct = false;
+    for (NamedFinding& finding : Named(exact::Judge(p, q, pair.pose, warm, how))) {
+      query.findings.push_back({finding.kind, "warm: " + finding.detail});
+    }
+  }
   if (options.search == Search::kPublished) {
     JudgePaper(pair, p, q, options, depth.twin, query);
   } else if (pair.expected && query.result.verdict != Verdict::kUndecided &&

@@ -25,6 +25,7 @@ struct JudgeDepth {
   bool phase_maxima = true;  // each phase against the exact maximum of its class: O(mn)
   bool construct = false;    // M built whole, too: small bodies only
   bool twin = true;          // kPublished: replay the pseudocode exactly, even where nothing failed
+  bool warm = true;          // kPortal: ask again with the cache of a frame before, and judge that
 };
 
 // Everything, and M built whole where one can wait for it: a product of vertex counts up to 4000.

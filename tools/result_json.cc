@@ -126,6 +126,10 @@ Json ToJson(const CollideResult& result) {
     json["exit_point_error"] = result.exit_point_error;
   }
   json["certificate"] = ToJson(result.certificate);
+  if (result.common_point) {
+    json["common_point"] = ToJson(result.common_point->point);
+    json["common_point_error"] = result.common_point->error;
+  }
   for (std::size_t i = 0; i < kSearchPhases.size(); ++i) {
     json["phases"][std::string(ToString(kSearchPhases[i]))] = ToJson(result.phases[i]);
   }
@@ -167,6 +171,10 @@ void PrintResult(std::ostream& out, const CollideResult& result) {
         << ShortDouble(result.exit_point_error) << "\n";
   }
   PrintCertificate(out, result.certificate);
+  if (result.common_point) {
+    out << "common point     " << Text(result.common_point->point) << " +- "
+        << ShortDouble(result.common_point->error) << "\n";
+  }
   for (std::size_t i = 0; i < kSearchPhases.size(); ++i) {
     const PhaseReport& report = result.phases[i];
     if (report.claim == PhaseClaim::kNotRun) continue;

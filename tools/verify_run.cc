@@ -171,11 +171,11 @@ class Worker {
   JudgeDepth DepthOf(std::uint64_t index, const PlacedPair& pair) const {
     switch (options_.depth) {
       case Depth::kProof:
-        return {.phase_maxima = false, .construct = false, .twin = false};
+        return {.phase_maxima = false, .construct = false, .twin = false, .warm = true};
       case Depth::kPhases:
-        return {.phase_maxima = true, .construct = false, .twin = false};
+        return {.phase_maxima = true, .construct = false, .twin = false, .warm = true};
       case Depth::kFull:
-        return {.phase_maxima = true, .construct = true, .twin = true};
+        return {.phase_maxima = true, .construct = true, .twin = true, .warm = true};
       case Depth::kMixed:
         break;
     }
@@ -184,7 +184,8 @@ class Worker {
     const std::uint64_t draw = (index + index / 20) % kSample;
     return {.phase_maxima = product <= kAlwaysMaxima || draw == 0,
             .construct = product <= kConstruct && draw == 1,
-            .twin = product <= kAlwaysMaxima || draw == 2};
+            .twin = product <= kAlwaysMaxima || draw == 2,
+            .warm = index % 2 == 0};
   }
 
   void RunQuery(const Suite& suite, std::uint64_t index, const PlacedPair& pair, Search search,

@@ -35,16 +35,18 @@ bool Separates(Signs* signs, const Eigen::Vector3d& direction, CornerPair* suppo
 
 }  // namespace
 
+bool HoldsTriangle(const MinkowskiDifference& m, const CollideCache& cache) {
+  return cache.has_triangle && Exists(m, cache.triangle[0]) && Exists(m, cache.triangle[1]) &&
+         Exists(m, cache.triangle[2]);
+}
+
 bool AnswerFromCache(MinkowskiDifference* m, Signs* signs, CollideCache* cache,
                      CollideResult* result) {
   if (cache->has_direction && Exists(*m, cache->support) && cache->direction.allFinite()) {
     if (Separates(signs, cache->direction, &cache->support, result)) return true;
   }
   const auto& corners = cache->triangle;
-  if (!cache->has_triangle || !Exists(*m, corners[0]) || !Exists(*m, corners[1]) ||
-      !Exists(*m, corners[2])) {
-    return false;
-  }
+  if (!HoldsTriangle(*m, *cache)) return false;
   const std::array<Eigen::Vector3d, 3> points = {m->Point(corners[0]), m->Point(corners[1]),
                                                  m->Point(corners[2])};
   const Eigen::Vector3d normal = (points[1] - points[0]).cross(points[2] - points[0]);

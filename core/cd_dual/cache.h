@@ -31,6 +31,9 @@ struct CollideCache {
 
 class Signs;
 
+// Whether the cache names a triangle of corners that M has.
+bool HoldsTriangle(const MinkowskiDifference& m, const CollideCache& cache);
+
 // The verdict, if what the cache holds proves it at the new pose in doubles. Then fills verdict,
 // tier, phase, termination and certificate of `result`, takes c from the cached interior points
 // where the proof rests on them, and returns true. Complexity: O(1), and a short climb on each

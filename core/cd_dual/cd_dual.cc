@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "touchstone/core/cd_dual/certify.h"
+#include "touchstone/core/cd_dual/common_point.h"
 #include "touchstone/core/cd_dual/exact_portal.h"
 #include "touchstone/core/cd_dual/face_of_m.h"
 #include "touchstone/core/cd_dual/measure.h"
@@ -56,7 +57,25 @@ class Query {
  private:
   bool AnswerWarm() {
     if (options_.early_exit) return AnswerFromCache(&m_, &signs_, cache_, &result_);
-    return false;
+    return KeepsExitFace();
+  }
+
+  // The last exit facet may still be the one, for the same c.
+  bool KeepsExitFace() {
+    ChooseInteriorDifference(&m_);
+    if (!HoldsTriangle(m_, *cache_) || cache_->interior_p != m_.interior_p() ||
+        cache_->interior_q != m_.interior_q()) {
+      return false;
+    }
+    std::array<VertexPair, 3> triangle;
+    for (int i = 0; i < 3; ++i) triangle[i] = m_.Vertices(cache_->triangle[i]);
+    if (!ConcludeFacet(triangle) || result_.verdict == Verdict::kUndecided) {
+      result_ = CollideResult{};
+      return false;
+    }
+    result_.phase = Phase::kCache;
+    ReportFinalClass();
+    return true;
   }
 
   // What the next query may begin with.
@@ -76,6 +95,9 @@ class Query {
     result_.interior_q = m_.interior_q();
     result_.interior_difference = m_.c() / m_.scale();
     result_.exact_signs = signs_.exact_count();
+    if (options_.common_point) {
+      result_.common_point = FindCommonPoint(&signs_, result_.certificate);
+    }
     for (TraceStep& step : result_.trace) step.signed_distance *= m_.scale();
   }
 

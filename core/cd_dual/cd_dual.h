@@ -14,6 +14,9 @@ struct CollideOptions {
   Certainty certainty = Certainty::kExact;
   // Stop as soon as the verdict is certain: no exit face, d or g then.
   bool early_exit = false;
+  // Also name a point of both bodies where they touch or overlap. (Where they are separate, the
+  // certificate's direction says all.)
+  bool common_point = false;
   // Record every face visited (the paper's Figure 11).
   bool trace = false;
 };

@@ -154,6 +154,12 @@ struct TraceStep {
   bool accepted;  // became the best face so far
 };
 
+// A point that both bodies hold, up to `error`: neither is further from it.
+struct CommonPoint {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // in P's frame
+  double error = 0.0;
+};
+
 struct CollideResult {
   Verdict verdict = Verdict::kUndecided;
   Tier tier = Tier::kNone;
@@ -174,6 +180,8 @@ struct CollideResult {
   double exit_point_error = 0.0;                // bound on its distance from the exact point
 
   Certificate certificate;
+  // On request, where they touch or overlap.
+  std::optional<CommonPoint> common_point;
 
   // How many signs doubles left open and big numbers settled.
   long exact_signs = 0;

@@ -71,6 +71,8 @@ void CheckVerdict(const JudgeContext& context, bool proven);
 void CheckFace(JudgeContext* context);
 // Check 4.
 void CheckValues(const JudgeContext& context);
+// Check 4 for the common point, which any touch or overlap may name.
+void CheckCommonPoint(const JudgeContext& context);
 // Check 5: the phases.
 void CheckPhases(const JudgeContext& context);
 // Check 6.

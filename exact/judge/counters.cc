@@ -78,8 +78,10 @@ void CheckPhaseAndTier(const JudgeContext& context) {
   const bool decided_early =
       result.termination == Termination::kEarlyExit && result.tier == Tier::kBound;
   const bool by_bounds = result.verdict == Verdict::kSeparate && decided_early;
-  if (result.phase == Phase::kCache && (search != Search::kPortal || !decided_early)) {
-    bad("a cache answers kPortal, early and in doubles");
+  if (result.phase == Phase::kCache &&
+      (search != Search::kPortal ||
+       (result.termination == Termination::kEarlyExit && !decided_early))) {
+    bad("a cache answers kPortal, and early only in doubles");
   }
   if (at_start ? !(coincident || by_bounds) : coincident) {
     bad("decided before any search, but neither c = o nor do bounds separate; or not, and c = o");

@@ -115,6 +115,7 @@ std::vector<Finding> Judge(const ExactBody& p, const ExactBody& q, const Relativ
   if (!CheckIndices(context, p, q)) return findings;
   const bool proven = CheckCertificate(context);
   CheckVerdict(context, proven);
+  CheckCommonPoint(context);
   if (!IsZero(context.pair.c())) {
     CheckFace(&context);
     CheckValues(context);

@@ -362,5 +362,35 @@ TEST(Collide, LargerBodiesAgreeAcrossSearchesAtEveryGap) {
   EXPECT_LE(exact, queries / 100);
 }
 
+// Beyond no face of either body by more than its error, which stays near the rounding of
+// coordinates however thin the tetrahedron that the point comes from.
+TEST(Collide, NamesACommonPointOnRequest) {
+  int named = 0;
+  for (const Placement& x : SmallPlacements(/*seed=*/8, 600)) {
+    for (const bool early_exit : {false, true}) {
+      CollideOptions options = Ask(Search::kPortal, Certainty::kExact, early_exit);
+      EXPECT_FALSE(Collide(x.p, x.q, x.pose, options).common_point);
+      options.common_point = true;
+      const CollideResult result = Collide(x.p, x.q, x.pose, options);
+      ASSERT_EQ(result.common_point.has_value(), result.verdict != Verdict::kSeparate) << x.name;
+      if (!result.common_point) continue;
+      ++named;
+      const auto& [point, error] = *result.common_point;
+      const double size = x.p.max_coordinate() + x.q.max_coordinate() +
+                          x.pose.translation().cwiseAbs().maxCoeff();
+      EXPECT_LE(error, 1e-12 * size);
+      const Eigen::Vector3d in_q =
+          x.pose.rotation().transpose() * (point - x.pose.translation());
+      for (const auto& [body, at] : {std::pair{&x.p, point}, std::pair{&x.q, in_q}}) {
+        for (int f = 0; f < body->face_count(); ++f) {
+          const Eigen::Vector3d n = body->face_normal(f).normalized();
+          EXPECT_LE(n.dot(at - body->vertex(body->face(f)[0])), error + 1e-14 * size) << x.name;
+        }
+      }
+    }
+  }
+  EXPECT_GT(named, 300);
+}
+
 }  // namespace
 }  // namespace touchstone::testing

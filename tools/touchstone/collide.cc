@@ -18,7 +18,8 @@ struct Arguments {
   std::vector<std::string> pose;
   std::string search = "portal";
   std::string certainty = "exact";
-  bool early_exit = false, judge = false, hull = false, trace = false, json = false;
+  bool early_exit = false, common_point = false, judge = false, hull = false, trace = false,
+       json = false;
 };
 
 RelativePose ParsePose(const std::vector<std::string>& words) {
@@ -65,6 +66,7 @@ int RunCollide(const Arguments& arguments) {
   const CollideOptions options{.search = ParseSearch(arguments.search),
                                .certainty = ParseCertainty(arguments.certainty),
                                .early_exit = arguments.early_exit,
+                               .common_point = arguments.common_point,
                                .trace = arguments.trace};
   const JudgeDepth depth = DepthForOneQuery(pair);
   ExactBodies bodies;
@@ -123,6 +125,8 @@ void AddCollide(CLI::App& app, int& exit_code) {
   command->add_option("--search", arguments->search, "published, phased or portal")
       ->capture_default_str();
   command->add_option("--certainty", arguments->certainty, "float or exact")->capture_default_str();
+  command->add_flag("--common-point", arguments->common_point,
+                    "Name a point of both bodies where they touch or overlap");
   command->add_flag("--early-exit", arguments->early_exit,
                     "stop as soon as the verdict is certain");
   command->add_flag("--judge", arguments->judge, "check every part of the answer exactly");
