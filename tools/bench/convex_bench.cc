@@ -130,7 +130,9 @@ void RunRepeat(std::vector<Lane>& lanes, std::size_t count, int repeats) {
     }
     for (int t = 0; t < kTurns; ++t) {
       for (std::size_t e = 0; e < lanes.size(); ++e) {
-        if (batch[e] > 0) turns[e][t] = lanes[e].Time(i, i + 1, batch[e], nullptr);
+        if (batch[e] == 0) continue;
+        lanes[e].pairs[i]->Ask(nullptr);  // brings back what the engine before has driven out
+        turns[e][t] = lanes[e].Time(i, i + 1, batch[e], nullptr);
       }
     }
     for (std::size_t e = 0; e < lanes.size(); ++e) {
