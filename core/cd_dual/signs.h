@@ -69,7 +69,9 @@ class Signs {
   // How many signs needed big numbers.
   long exact_count() const { return exact_count_; }
   bool exact_allowed() const { return certainty_ == Certainty::kExact; }
+  // For signs that others take by big numbers.
   const ExactDifference& exact();
+  void CountExact() { ++exact_count_; }
 
  private:
   // The second filter of Determinant, finer for slivers.

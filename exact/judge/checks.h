@@ -61,6 +61,12 @@ class JudgeContext {
   mutable std::optional<ExactDecision> decision_;
 };
 
+// 0, 1, 2; the vertices of a feature, a face's in loop order; whether all of `some` are in
+// `sorted`.
+int DimensionOf(FeatureKind kind);
+std::vector<int> VerticesOf(const ExactBodyData& body, const Feature& feature);
+bool Includes(const std::vector<int>& sorted, const std::vector<int>& some);
+
 // Everything that other checks index with is in range.
 bool CheckIndices(const JudgeContext& context, const ExactBody& p, const ExactBody& q);
 // Check 2. Returns whether the certificate proves the verdict.

@@ -7,6 +7,26 @@
 #include "touchstone/exact/support.h"
 
 namespace touchstone::exact {
+
+int DimensionOf(FeatureKind kind) {
+  return kind == FeatureKind::kVertex ? 0 : kind == FeatureKind::kEdge ? 1 : 2;
+}
+
+std::vector<int> VerticesOf(const ExactBodyData& body, const Feature& feature) {
+  if (feature.kind == FeatureKind::kVertex) return {feature.index};
+  if (feature.kind == FeatureKind::kEdge) {
+    const ExactEdge& edge = body.topology().edges[feature.index];
+    return {edge.tail, edge.head};
+  }
+  const std::span<const int> loop = body.face(feature.index);
+  return {loop.begin(), loop.end()};
+}
+
+bool Includes(const std::vector<int>& sorted, const std::vector<int>& some) {
+  return std::all_of(some.begin(), some.end(),
+                     [&](int i) { return std::binary_search(sorted.begin(), sorted.end(), i); });
+}
+
 namespace {
 
 struct Dimensions {
@@ -29,26 +49,6 @@ Dimensions DimensionsOf(FaceClass face_class) {
       return {2, 2};
   }
   return {-1, -1};
-}
-
-int DimensionOf(FeatureKind kind) {
-  return kind == FeatureKind::kVertex ? 0 : kind == FeatureKind::kEdge ? 1 : 2;
-}
-
-// The vertices of a feature; a face's in loop order.
-std::vector<int> VerticesOf(const ExactBodyData& body, const Feature& feature) {
-  if (feature.kind == FeatureKind::kVertex) return {feature.index};
-  if (feature.kind == FeatureKind::kEdge) {
-    const ExactEdge& edge = body.topology().edges[feature.index];
-    return {edge.tail, edge.head};
-  }
-  const std::span<const int> loop = body.face(feature.index);
-  return {loop.begin(), loop.end()};
-}
-
-bool Includes(const std::vector<int>& sorted, const std::vector<int>& some) {
-  return std::all_of(some.begin(), some.end(),
-                     [&](int i) { return std::binary_search(sorted.begin(), sorted.end(), i); });
 }
 
 // The edge vectors of a feature's outline.
