@@ -5,9 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "touchstone/core/cd_dual/exact_support.h"
 #include "touchstone/core/proximity/signs_of_points.h"
 
 namespace touchstone {
+namespace {
+
+// Of the size: how much of its distance a triangle may lose by a normal of rounded corners before a
+// finer one is worth its time. The bound is coarse, and what is lost in truth a small part of it;
+// `Sharpen` mends where it matters.
+constexpr double kWorstTilt = 1e-11;
+
+}  // namespace
 
 double InnerPolytope::DistanceError(const MinkowskiDifference& m) {
   // n.w / |n| with w off by E in each coordinate and three roundings of the dot product, |n|_1 <=
@@ -18,6 +27,7 @@ double InnerPolytope::DistanceError(const MinkowskiDifference& m) {
 
 void InnerPolytope::Clear() {
   corners_.clear();
+  exact_points_.clear();
   triangles_.clear();
   free_.clear();
   queue_.clear();
@@ -78,6 +88,64 @@ int InnerPolytope::TakeNearest(double limit) {
   return -1;
 }
 
+// How far the corners of a triangle may seem to be off its plane because its normal is: that is
+// lost from its distance.
+double InnerPolytope::Tilt(const Triangle& t, double extent) {
+  const double largest = t.normal.cwiseAbs().maxCoeff();
+  if (!(largest > 0.0)) return HUGE_VAL;
+  return 3.0 * t.normal_error / largest * extent;
+}
+
+// The normal from the corners' differences, feature by feature, and where that is not enough, for
+// slivers, by big numbers; over a power of two.
+void InnerPolytope::Straighten(Signs* signs, double extent, Triangle* t) {
+  const std::array<VertexPair, 3> corners = {
+      corners_[t->corners[0]].pair, corners_[t->corners[1]].pair, corners_[t->corners[2]].pair};
+  const FacetPlane plane = signs->Plane(corners);
+  int exponent = 0;
+  std::frexp(plane.normal.cwiseAbs().maxCoeff(), &exponent);
+  for (int k = 0; k < 3; ++k) t->normal[k] = std::ldexp(plane.normal[k], -exponent);
+  t->normal_error = std::ldexp(plane.normal_error, -exponent) + 0x1p-1000;
+  if (signs->exact_allowed() && !(Tilt(*t, extent) <= kWorstTilt)) SetExactNormal(signs, t);
+  t->length = t->normal.norm();
+}
+
+void InnerPolytope::MakeExact(Signs* signs, int corner) {
+  if (corners_[corner].exact >= 0) return;
+  corners_[corner].exact = static_cast<int>(exact_points_.size());
+  exact_points_.push_back(signs->exact().Point(corners_[corner].pair));
+}
+
+DyadicVector InnerPolytope::ExactNormal(Signs* signs, const Triangle& t) {
+  for (const int corner : t.corners) MakeExact(signs, corner);
+  const DyadicVector& origin = Exact(t.corners[0]);
+  return Cross(Exact(t.corners[1]) - origin, Exact(t.corners[2]) - origin);
+}
+
+void InnerPolytope::SetExactNormal(Signs* signs, Triangle* t) {
+  signs->CountExact();
+  t->normal = ToDirection(ExactNormal(signs, *t));
+  t->normal_error = kRoundingUnit;
+  t->length = t->normal.norm();
+}
+
+// At most the distance of o from the three corners along the normal.
+void InnerPolytope::SetDistance(Triangle* t) const {
+  const double lowest = std::min({t->normal.dot(corners_[t->corners[0]].point),
+                                  t->normal.dot(corners_[t->corners[1]].point),
+                                  t->normal.dot(corners_[t->corners[2]].point)});
+  t->distance = t->length > 0.0 ? std::max(0.0, lowest / t->length) : 0.0;
+}
+
+void InnerPolytope::Sharpen(Signs* signs, double least) {
+  if (!signs->exact_allowed()) return;
+  for (Triangle& t : triangles_) {
+    if (!t.alive || t.distance >= least) continue;
+    SetExactNormal(signs, &t);
+    SetDistance(&t);
+  }
+}
+
 // The triangle's plane in doubles. True if o is on its inner side, or in it where that is exact.
 bool InnerPolytope::Evaluate(Signs* signs, int triangle) {
   const MinkowskiDifference& m = signs->difference();
@@ -92,18 +160,24 @@ bool InnerPolytope::Evaluate(Signs* signs, int triangle) {
   // absolute terms of at most 2 |u||v| (in maximum norm), and 2 (|u| e_v + |v| e_u + e_u e_v) for
   // the data.
   const double lu = u.cwiseAbs().maxCoeff(), lv = v.cwiseAbs().maxCoeff();
-  const double e = 2.0 * m.coordinate_error() + kRoundingUnit * std::max(lu, lv);
+  const double extent = std::max(lu, lv);
+  const double e = 2.0 * m.coordinate_error() + kRoundingUnit * extent;
   t.normal_error = 1.01 * (4.1 * kRoundingUnit * lu * lv + 2.0 * e * (lu + lv + e)) + 0x1p-1000;
-  const double lowest = std::min({t.normal.dot(a), t.normal.dot(b), t.normal.dot(c)});
-  t.distance = t.length > 0.0 ? std::max(0.0, lowest / t.length) : 0.0;
+  if (!(Tilt(t, extent) <= kWorstTilt)) Straighten(signs, extent, &t);
+  SetDistance(&t);
   // det[a b c] = N.a with N off by dn, a by E: as in Signs::AlongNormal.
   const double n1 = t.normal.lpNorm<1>(), largest = 2.0 * m.size();
   const double error = 1.01 * ((n1 + 3.0 * t.normal_error) * m.coordinate_error() +
                                3.1 * kRoundingUnit * n1 * largest + 3.0 * t.normal_error * largest);
-  if (lowest > error) return true;
+  if (t.distance * t.length > 1.01 * error) return true;
   const auto corners = Corners(triangle);
-  const auto side = signs->Determinant(corners[0], corners[1], corners[2]);
-  return side && (*side > 0 || (*side == 0 && signs->exact_allowed()));
+  Signs in_doubles(m, Certainty::kFloat);
+  if (const auto side = in_doubles.Determinant(corners[0], corners[1], corners[2]))
+    return *side > 0;
+  if (!signs->exact_allowed()) return false;
+  signs->CountExact();
+  for (const int corner : t.corners) MakeExact(signs, corner);
+  return Determinant(Exact(t.corners[0]), Exact(t.corners[1]), Exact(t.corners[2])).sign() >= 0;
 }
 
 bool InnerPolytope::Start(Signs* signs, const std::array<VertexPair, 3>& triangle) {
@@ -135,7 +209,9 @@ bool InnerPolytope::Refresh(Signs* signs) {
     if (corner.pair.p >= m.p().vertex_count() || corner.pair.q >= m.q().vertex_count())
       return false;
     corner.point = m.Point(corner.pair);
+    corner.exact = -1;
   }
+  exact_points_.clear();
   queue_.clear();
   for (int i = 0; i < static_cast<int>(triangles_.size()); ++i) {
     const Triangle& t = triangles_[i];
@@ -148,12 +224,11 @@ bool InnerPolytope::Refresh(Signs* signs) {
   return true;
 }
 
-std::optional<int> InnerPolytope::IsBeyond(Signs* signs, int triangle, VertexPair w) const {
+std::optional<int> InnerPolytope::IsBeyond(Signs* signs, int triangle, int corner) {
   const MinkowskiDifference& m = signs->difference();
   const Triangle& t = triangles_[triangle];
-  const Eigen::Vector3d from = m.Point(w) - corners_[t.corners[0]].point;
-  // N.(w - a) with N off by dn, each end by E, the difference rounded once: |w - a| <= 4 size in
-  // every coordinate.
+  const Eigen::Vector3d from = corners_[corner].point - corners_[t.corners[0]].point;
+  // N.(w - a) with N off by dn, each end by E, the difference rounded once.
   const double value = t.normal.dot(from), n1 = t.normal.lpNorm<1>();
   const double largest = from.cwiseAbs().maxCoeff();
   const double error =
@@ -162,12 +237,18 @@ std::optional<int> InnerPolytope::IsBeyond(Signs* signs, int triangle, VertexPai
       0x1p-1000;
   if (value > error) return 1;
   if (value < -error) return -1;
-  return Beyond(signs, Corners(triangle), w);
+  Signs in_doubles(m, Certainty::kFloat);
+  if (const auto sign = Beyond(&in_doubles, Corners(triangle), corners_[corner].pair)) return sign;
+  if (!signs->exact_allowed()) return std::nullopt;
+  signs->CountExact();
+  MakeExact(signs, corner);
+  const DyadicVector normal = ExactNormal(signs, t);
+  return Dot(normal, Exact(corner) - Exact(t.corners[0])).sign();
 }
 
 // Walks over the triangles that w lies beyond, from `first`, and leaves them in dead_, and the
 // sides between them and the rest in horizon_, in order. False where a sign cannot be told.
-bool InnerPolytope::CollectHorizon(Signs* signs, int first, VertexPair w) {
+bool InnerPolytope::CollectHorizon(Signs* signs, int first, int apex) {
   ++round_;
   horizon_.clear();
   stack_.clear();
@@ -191,7 +272,7 @@ bool InnerPolytope::CollectHorizon(Signs* signs, int first, VertexPair w) {
     int side = 0;  // the same one as `next` has it, from `to` to `from`
     while (beyond.corners[side] != to) ++side;
     if (beyond.seen != round_) {
-      const auto sign = IsBeyond(signs, next, w);
+      const auto sign = IsBeyond(signs, next, apex);
       if (!sign && signs->exact_allowed()) return false;
       beyond.seen = round_;
       beyond.is_beyond = sign && *sign > 0;
@@ -205,21 +286,34 @@ bool InnerPolytope::CollectHorizon(Signs* signs, int first, VertexPair w) {
   return true;
 }
 
-bool InnerPolytope::Expand(Signs* signs, int triangle, VertexPair w) {
-  if (!CollectHorizon(signs, triangle, w)) return false;
+InnerPolytope::Growth InnerPolytope::Expand(Signs* signs, int triangle, VertexPair w) {
+  const int apex = static_cast<int>(corners_.size());
+  corners_.push_back({w, signs->difference().Point(w)});
+  const auto sign = IsBeyond(signs, triangle, apex);
+  if (!sign || *sign <= 0) {
+    corners_.pop_back();
+    return Growth::kNotBeyond;
+  }
+  if (!CollectHorizon(signs, triangle, apex) || !AddFan(signs, apex)) {
+    corners_.pop_back();
+    return Growth::kImpossible;
+  }
+  return Growth::kGrown;
+}
+
+// Replaces the triangles of dead_ by a fan from the horizon. False, with nothing changed, if it is
+// no loop or a triangle of the fan has o on its outer side.
+bool InnerPolytope::AddFan(Signs* signs, int apex) {
   const std::size_t count = horizon_.size();
   if (count < 3) return false;
   for (std::size_t i = 0; i < count; ++i) {
     if (horizon_[i].to != horizon_[(i + 1) % count].from) return false;
   }
-  const int apex = static_cast<int>(corners_.size());
-  corners_.push_back({w, signs->difference().Point(w)});
   fan_.clear();
   for (const Side& side : horizon_) {
     fan_.push_back(AddTriangle(side.from, side.to, apex));
     if (Evaluate(signs, fan_.back())) continue;
     for (const int t : fan_) Kill(t);
-    corners_.pop_back();
     return false;
   }
   for (const int t : dead_) Kill(t);

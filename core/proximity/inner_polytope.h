@@ -62,15 +62,20 @@ class InnerPolytope {
   std::array<VertexPair, 3> Corners(int triangle) const;
   bool HasCorner(int triangle, VertexPair pair) const;
 
-  // The sign of how `w` lies to the triangle's plane, 1 beyond it. Nothing when that cannot be
-  // told.
-  std::optional<int> IsBeyond(Signs* signs, int triangle, VertexPair w) const;
+  enum class Growth {
+    kGrown,
+    kNotBeyond,  // the point does not lie beyond the triangle, or that cannot be told
+    // The triangles that it lies beyond are no disc, or o is not on the inner side of a new
+    // triangle (or that cannot be told): impossible while K is exactly convex and signs are exact.
+    kImpossible,
+  };
+  // Takes in `w`: the triangles that it lies beyond, `triangle` among them, give way to a fan
+  // around it. K stays as it was unless the answer is kGrown.
+  Growth Expand(Signs* signs, int triangle, VertexPair w);
 
-  // Takes in `w`, which lies beyond `triangle`: the triangles that it lies beyond give way to a fan
-  // around it. False, with K as it was, if they are no disc or o is not on the inner side of a new
-  // triangle (or that cannot be told): impossible while K is exactly convex and signs are exact.
-  bool Expand(Signs* signs, int triangle, VertexPair w);
-
+  // Triangles nearer than `least` by rounding alone have their normals taken by big numbers, where
+  // those are allowed.
+  void Sharpen(Signs* signs, double least);
   // The least distance of all triangles.
   double LeastDistance() const;
   // How far a `distance` may be above the truth.
@@ -88,6 +93,7 @@ class InnerPolytope {
   struct Corner {
     VertexPair pair;
     Eigen::Vector3d point;  // scaled
+    int exact = -1;         // its place in exact_points_, once it was needed
   };
   struct Queued {
     double distance;
@@ -103,12 +109,23 @@ class InnerPolytope {
   };
 
   int AddTriangle(int a, int b, int c);
+  static double Tilt(const Triangle& t, double extent);
+  void Straighten(Signs* signs, double extent, Triangle* t);
+  void SetExactNormal(Signs* signs, Triangle* t);
+  void SetDistance(Triangle* t) const;
   bool Evaluate(Signs* signs, int triangle);
   void Push(int triangle);
   void Kill(int triangle);
-  bool CollectHorizon(Signs* signs, int first, VertexPair w);
+  // How a corner lies to a triangle's plane, 1 beyond it; nothing when that cannot be told.
+  std::optional<int> IsBeyond(Signs* signs, int triangle, int corner);
+  bool CollectHorizon(Signs* signs, int first, int apex);
+  bool AddFan(Signs* signs, int apex);
+  void MakeExact(Signs* signs, int corner);
+  const DyadicVector& Exact(int corner) const { return exact_points_[corners_[corner].exact]; }
+  DyadicVector ExactNormal(Signs* signs, const Triangle& t);
 
   std::vector<Corner> corners_;
+  std::vector<DyadicVector> exact_points_;
   std::vector<Triangle> triangles_;
   std::vector<int> free_;
   std::vector<Queued> queue_;  // a heap, the nearest on top; entries of dead triangles stay

@@ -30,6 +30,8 @@ struct ProvenFacet {
 
 class PenetrationQuery {
  public:
+  using Growth = InnerPolytope::Growth;
+
   PenetrationQuery(const ConvexPolyhedron& p, const ConvexPolyhedron& q, const RelativePose& pose,
                    const PenetrationOptions& options, PenetrationCache* cache)
       : m_(p, q, pose),
@@ -68,14 +70,34 @@ class PenetrationQuery {
     polytope_.Clear();
     best_ = {};
     ChooseInteriorDifference(&m_);
-    const Proposal proposal = SearchPortal(m_, true, &result_.counts);
-    bool started =
-        proposal.kind == Proposal::Kind::kEnclosed && polytope_.Start(&signs_, proposal.triangle);
-    if (!started) started = StartByVerdict();
+    const int chosen_p = m_.interior_p(), chosen_q = m_.interior_q();
+    bool started = StartFromHere(true);
+    // A direction that seems to separate ends the search early; near contact it may not.
+    if (!started) started = StartFromHere(false);
+    // A ray that runs through an edge of M leaves signs open that another ray does not meet.
+    for (int k = 1; k < 4 && !started && !is_apart_; ++k) {
+      m_.ChooseInterior((chosen_p + k) % 2, (chosen_q + k / 2) % 2);
+      started = m_.c_norm() > m_.coordinate_error() && StartFromHere(true);
+    }
+    if (!started) {
+      m_.ChooseInterior(chosen_p, chosen_q);
+      started = StartByVerdict();
+    }
     if (!started) return;
     result_.verdict = Verdict::kOverlap;
     Grow(options_.certainty == Certainty::kExact ? -1 : kMaxFloatRounds);
     cache_->cold_triangles = polytope_.triangle_count();
+  }
+
+  // The tetrahedron that the verdict's search ends with, if o is in it.
+  bool StartFromHere(bool early_exit) {
+    const Proposal proposal = SearchPortal(m_, early_exit, &result_.counts);
+    is_apart_ = proposal.kind == Proposal::Kind::kSeparatingDirection ||
+                proposal.kind == Proposal::Kind::kApartByBounds;
+    // What it could not tell, that of o, is for `Start` to tell.
+    return (proposal.kind == Proposal::Kind::kEnclosed ||
+            proposal.kind == Proposal::Kind::kExitFacet) &&
+           polytope_.Start(&signs_, proposal.triangle);
   }
 
   // What the verdict's own search says: its tetrahedron, or the answer that nothing is to be grown.
@@ -118,32 +140,33 @@ class PenetrationQuery {
         if (!signs_.exact_allowed()) return true;
         if (IsNoNearer(polytope_.Corners(triangle))) continue;
       }
-      const InnerPolytope::Triangle& t = polytope_.triangle(triangle);
-      VertexPair beyond = m_.Support(t.normal, {}, &result_.counts);
-      if (!polytope_.HasCorner(triangle, beyond)) {
-        const auto sign = polytope_.IsBeyond(&signs_, triangle, beyond);
-        if (sign && *sign > 0) {
-          if (!polytope_.Expand(&signs_, triangle, beyond)) return !signs_.exact_allowed();
+      const Eigen::Vector3d normal = polytope_.triangle(triangle).normal;
+      const VertexPair support = m_.Support(normal, {}, &result_.counts);
+      Growth growth = Growth::kNotBeyond;
+      if (!polytope_.HasCorner(triangle, support))
+        growth = polytope_.Expand(&signs_, triangle, support);
+      if (growth == Growth::kNotBeyond) {
+        if (auto facet = ProveFacet(triangle)) {
+          best_ = *facet;
+          limit = polytope_.triangle(triangle).distance + noise;
           continue;
         }
+        if (signs_.exact_allowed()) growth = ExpandExactly(triangle);
       }
-      if (auto facet = ProveFacet(triangle)) {
-        best_ = *facet;
-        limit = t.distance + noise;
-        continue;
-      }
-      if (!signs_.exact_allowed()) return true;  // as near as doubles can tell
-      // Rounding has hidden what lies beyond.
-      signs_.CountExact();
-      const auto corners = polytope_.Corners(triangle);
-      const ExactDifference& big = signs_.exact();
-      const DyadicVector origin = big.Point(corners[0]);
-      beyond = ExactSupport(big, m_,
-                            Cross(big.Point(corners[1]) - origin, big.Point(corners[2]) - origin),
-                            &result_.counts);
-      const auto sign = polytope_.IsBeyond(&signs_, triangle, beyond);
-      if (!sign || *sign <= 0 || !polytope_.Expand(&signs_, triangle, beyond)) return false;
+      // In doubles alone, as near as they can tell.
+      if (growth != Growth::kGrown) return !signs_.exact_allowed();
     }
+  }
+
+  // Over what rounding has hidden.
+  Growth ExpandExactly(int triangle) {
+    signs_.CountExact();
+    const auto corners = polytope_.Corners(triangle);
+    const ExactDifference& big = signs_.exact();
+    const DyadicVector origin = big.Point(corners[0]);
+    const DyadicVector normal =
+        Cross(big.Point(corners[1]) - origin, big.Point(corners[2]) - origin);
+    return polytope_.Expand(&signs_, triangle, ExactSupport(big, m_, normal, &result_.counts));
   }
 
   // Than best_: the other half of a parallelogram is in the same plane, without computing.
@@ -202,8 +225,6 @@ class PenetrationQuery {
 
   void Conclude() {
     result_.tier = signs_.exact_count() == 0 ? Tier::kBound : Tier::kExact;
-    const double least = polytope_.LeastDistance() - InnerPolytope::DistanceError(m_);
-    result_.lower = least > 0.0 ? m_.Unscale(least) : 0.0;
     if (options_.certificate) {
       polytope_.ForEach([&](int i) { result_.inner_polytope.push_back(polytope_.Corners(i)); });
     }
@@ -215,15 +236,25 @@ class PenetrationQuery {
       const Simplex simplex{best_.corners, 3};
       Measure(MeasureFoot(m_, simplex));
       if (signs_.exact_allowed() && IsLoose()) Measure(MeasureFootExactly(&signs_, simplex));
+      // Rounding made up what looks nearer than the nearest facet.
+      polytope_.Sharpen(&signs_,
+                        m_.scale() * result_.depth.value - 0.25 * kClaimPerCondition * m_.size());
+      SetLower();
       return;
     }
+    SetLower();
     MeasureUnproven();
+  }
+
+  void SetLower() {
+    const double least = polytope_.LeastDistance() - InnerPolytope::DistanceError(m_);
+    result_.lower = !polytope_.empty() && least > 0.0 ? m_.Unscale(least) : 0.0;
   }
 
   bool IsLoose() const {
     const double most = kClaimPerCondition * m_.Unscale(m_.size());
     return !(result_.depth.value > 0.0) || !(result_.depth.error <= most) ||
-           !(result_.translation_error <= most) || !(result_.point_error <= most) ||
+           !(result_.foot_error <= most) || !(result_.point_error <= most) ||
            !(result_.upper - result_.depth.value <= most);
   }
 
@@ -234,7 +265,7 @@ class PenetrationQuery {
 
   void Measure(const Foot& foot) {
     result_.translation = foot.point;
-    result_.translation_error = foot.point_error;
+    result_.foot_error = foot.point_error;
     result_.direction = foot.outward;
     result_.point_on_p = foot.on_p;
     result_.point_on_q = foot.on_q;
@@ -245,28 +276,42 @@ class PenetrationQuery {
                      std::isfinite(condition) ? condition : 1.0};
   }
 
-  // In doubles alone, without a proven facet: the bounds are all there is.
+  // In doubles alone, without a proven facet: the bounds are all there is. The direction is that of
+  // the nearest triangle, or without a polytope the best of the axes.
   void MeasureUnproven() {
+    result_.upper = HUGE_VAL;
+    const auto consider = [&](const Eigen::Vector3d& direction) {
+      if (!direction.allFinite()) return;
+      const VertexPair support = m_.Support(direction, {}, &result_.counts);
+      const double upper = UpperAlong(direction, support);
+      if (!(upper < result_.upper)) return;
+      result_.upper = upper;
+      result_.direction = direction;
+      result_.point_on_p = m_.PointOfP(support.p);
+    };
     int nearest = -1;
     polytope_.ForEach([&](int i) {
       if (nearest < 0 || polytope_.triangle(i).distance < polytope_.triangle(nearest).distance)
         nearest = i;
     });
-    const InnerPolytope::Triangle& t = polytope_.triangle(nearest);
-    const Eigen::Vector3d normal = t.normal / t.length;
-    result_.direction = normal / normal.norm();
-    const VertexPair support = m_.Support(result_.direction, {}, &result_.counts);
-    result_.upper = std::max(UpperAlong(result_.direction, support), result_.lower);
+    if (nearest >= 0) {
+      const Eigen::Vector3d& normal = polytope_.triangle(nearest).normal;
+      const Eigen::Vector3d scaled = normal / normal.cwiseAbs().maxCoeff();
+      consider(scaled / scaled.norm());
+    }
+    for (int k = 0; k < 3; ++k) {
+      consider(Eigen::Vector3d::Unit(k));
+      consider(-Eigen::Vector3d::Unit(k));
+    }
+    result_.upper = std::max(result_.upper, result_.lower);
     const double value = result_.upper;
     const double error = (result_.upper - result_.lower) * (1.0 + kRoundingUnit);
     const double condition = std::max(1.0, m_.Unscale(m_.size()) / value);
     result_.depth = {value, error, std::isfinite(condition) ? condition : 1.0};
-    // Q moved by the height of M along a direction is out of P, and just so if the facet is the
-    // nearest.
+    // Q moved by the height of M along a direction is out of P.
     result_.translation = value * result_.direction;
-    result_.translation_error = m_.Unscale(m_.size());
+    result_.foot_error = m_.Unscale(m_.size());
     result_.point_error = m_.Unscale(m_.size());
-    result_.point_on_p = m_.PointOfP(support.p);
     result_.point_on_q = result_.point_on_p - result_.translation;
   }
 
@@ -276,6 +321,7 @@ class PenetrationQuery {
   PenetrationCache* cache_;
   InnerPolytope& polytope_;
   ProvenFacet best_;
+  bool is_apart_ = false;  // a search in doubles says so
   PenetrationResult result_;
 };
 

@@ -91,9 +91,9 @@ struct PenetrationResult {
   // The rest is present for kOverlap.
   //
   // Q moved by `translation` just touches P: it is the foot of o on the facet's plane. Within
-  // `translation_error` of the exact foot.
+  // `foot_error` of the exact foot.
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  double translation_error = 0.0;
+  double foot_error = 0.0;
   // The facet's outward normal, of unit length up to rounding.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   // The facet, proven to be one; the foot lies in its triangle. Always present under kExact. For

@@ -97,7 +97,7 @@ class PenetrationJudge {
     for (int k = 0; k < 3; ++k) {
       translation[k] = pair_.ToLength(Real(Integer(plane.normal[k] * plane.height)) / squared);
     }
-    context_.CheckPoint("translation", result_.translation, result_.translation_error, translation);
+    context_.CheckPoint("translation", result_.translation, result_.foot_error, translation);
     context_.CheckPoint("point_on_p", result_.point_on_p, result_.point_error,
                         PointOnP(pair_, *foot));
     context_.CheckPoint("point_on_q", result_.point_on_q, result_.point_error,

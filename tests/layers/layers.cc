@@ -41,7 +41,8 @@ const std::map<std::string, Names>& AllowedFolders() {
 // All that the judge may read of what it judges.
 const Names& CoreHeadersForExact() {
   static const Names kAllowed = {"core/base/status.h", "core/base/relative_pose.h",
-                                 "core/convex/convex_polyhedron.h", "core/cd_dual/result.h"};
+                                 "core/convex/convex_polyhedron.h", "core/cd_dual/result.h",
+                                 "core/proximity/result.h"};
   return kAllowed;
 }
 
