@@ -20,17 +20,17 @@ struct Cache : EngineCache {
 class Pair : public EnginePair {
  public:
   Pair(const Shape& p, const Shape& q, const RelativePose& pose, const CollideOptions& options)
-      : p_(p), q_(q), pose_(pose), options_(options) {}
+      : p_(p.body), q_(q.body), pose_(pose), options_(options) {}
 
   Verdict Ask(EngineCache* cache) const override {
     CollideCache* last = cache == nullptr ? nullptr : &static_cast<Cache*>(cache)->cache;
-    return Collide(p_.body, q_.body, pose_, options_, last).verdict;
+    return Collide(p_, q_, pose_, options_, last).verdict;
   }
 
   EngineValues Measure() const override {
     CollideOptions options = options_;
     options.early_exit = false;
-    const CollideResult result = Collide(p_.body, q_.body, pose_, options);
+    const CollideResult result = Collide(p_, q_, pose_, options);
     EngineValues values;
     if (result.exit_travel) {
       values.exit_travel = result.exit_travel->value;
@@ -41,8 +41,8 @@ class Pair : public EnginePair {
   }
 
  private:
-  const Shape& p_;
-  const Shape& q_;
+  // Handles, as a user holds them; the bodies' data is the shapes'.
+  ConvexPolyhedron p_, q_;
   RelativePose pose_;
   const CollideOptions& options_;
 };
