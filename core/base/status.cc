@@ -29,6 +29,10 @@ std::string_view ToString(StatusCode code) {
       return "non_manifold";
     case StatusCode::kInconsistentOrientation:
       return "inconsistent_orientation";
+    case StatusCode::kInward:
+      return "inward";
+    case StatusCode::kFolded:
+      return "folded";
     case StatusCode::kNonPlanarFace:
       return "non_planar_face";
     case StatusCode::kNotConvex:

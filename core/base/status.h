@@ -24,9 +24,11 @@ enum class StatusCode {
   kOpen,                // an edge with one face
   kNonManifold,         // an edge with more than two faces, a pinched vertex, two components
   kInconsistentOrientation,  // an edge run twice in the same sense, or all faces inward
+  kInward,                   // a component of a mesh that faces the wrong way
+  kFolded,                   // two faces at an edge that lie on top of each other
   kNonPlanarFace,            // a vertex of a face off its plane, by exact signs
   kNotConvex,                // a vertex strictly beyond a face's plane, or a face not convex
-  kFlat,                     // all vertices in one plane
+  kFlat,                     // all vertices in one plane, or a component that encloses no volume
   kNoInteriorPoint,          // so thin that no triple of doubles was proven strictly inside
   kBadRotation,  // determinant not positive, or RᵀR off the identity by more than 1e-6
 };
