@@ -19,23 +19,9 @@
 #include <string_view>
 #include <vector>
 
+#include "touchstone/core/base/verdict.h"
+
 namespace touchstone {
-
-// Of the closed bodies.
-enum class Verdict {
-  kSeparate,   // they share no point
-  kTouch,      // they share a point, their interiors do not
-  kOverlap,    // their interiors share a point
-  kUndecided,  // floating point alone could not tell; never returned under Certainty::kExact
-};
-
-// Which arithmetic decided the verdict.
-enum class Tier {
-  kBound,  // doubles with a proven error bound
-  kScan,   // doubles, every vertex compared with the plain bound
-  kExact,  // exact signs
-  kNone,   // undecided, or a search that proves nothing (kPublished)
-};
 
 enum class Search {
   kPublished,  // the paper to the letter: exists to be judged; its verdict is not proven
@@ -43,23 +29,8 @@ enum class Search {
   kPortal,     // a triangle of M's vertices that the ray crosses, pushed outward
 };
 
-enum class Certainty {
-  kFloat,  // doubles with proven bounds; may answer kUndecided
-  kExact,  // goes on to exact signs where the bounds do not decide
-};
-
 // The dimensions of the two features whose sum is the facet of M: P's first.
 enum class FaceClass { kFaceVertex, kVertexFace, kEdgeEdge, kFaceEdge, kEdgeFace, kFaceFace };
-
-enum class FeatureKind { kVertex, kEdge, kFace };
-
-// A feature of one body, by an element's index. Where coplanar faces or collinear edges make the
-// supporting feature larger than any element, `index` names one element of it and stands for all.
-struct Feature {
-  FeatureKind kind = FeatureKind::kVertex;
-  int index = -1;
-  friend bool operator==(const Feature&, const Feature&) = default;
-};
 
 // The point p_vertex - (R q_vertex + t) of M.
 struct VertexPair {

@@ -88,6 +88,9 @@ class TriangleMesh {
   // max over vertices of the largest absolute coordinate: the size that error bounds refer to.
   double max_coordinate() const { return data_->max_coordinate; }
 
+  // Boxes round the faces, in the body's own frame.
+  const BoxTree& box_tree() const { return data_->box_tree; }
+
   // Checks every invariant from scratch; kOk for any mesh that `Build` returned.
   Status FindValidationError() const;
 

@@ -152,6 +152,7 @@ StatusOr<TriangleMesh> TriangleMesh::Build(std::span<const Vector3d> vertices,
   if (Status status = internal::CheckEnclosure(orientation, data.get()); !status.ok()) {
     return status;
   }
+  data->box_tree = BoxTree(data->vertices, data->faces);
   TriangleMesh mesh(std::move(data));
   assert(mesh.FindValidationError().ok());
   return mesh;

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace touchstone {
+#include "touchstone/core/mesh/box_tree.h"
 
-using Triangle = std::array<int, 3>;
+namespace touchstone {
 
 // How the body bends at an edge, by its exact internal angle: below, equal to or above π.
 enum class EdgeKind : std::uint8_t { kConvex, kFlat, kReflex };
@@ -42,6 +42,7 @@ struct TriangleMeshData {
   std::vector<int> vertex_begin, vertex_half_edges;
   std::vector<int> component_of_face;
   std::vector<MeshComponent> components;
+  BoxTree box_tree;
   double max_coordinate = 0.0;
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }

@@ -40,8 +40,9 @@ const std::map<std::string, Names>& AllowedFolders() {
 
 // All that the judge may read of what it judges.
 const Names& CoreHeadersForExact() {
-  static const Names kAllowed = {"core/base/status.h", "core/base/relative_pose.h",
-                                 "core/convex/convex_polyhedron.h", "core/cd_dual/result.h",
+  static const Names kAllowed = {"core/base/status.h",        "core/base/relative_pose.h",
+                                 "core/base/verdict.h",       "core/convex/convex_polyhedron.h",
+                                 "core/mesh/triangle_mesh.h", "core/cd_dual/result.h",
                                  "core/proximity/result.h"};
   return kAllowed;
 }

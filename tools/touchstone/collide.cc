@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "touchstone/tools/judged_query.h"
+#include "touchstone/tools/mesh_arguments.h"
 #include "touchstone/tools/mesh_io.h"
 #include "touchstone/tools/numbers.h"
 #include "touchstone/tools/result_json.h"
@@ -21,24 +22,6 @@ struct Arguments {
   bool early_exit = false, common_point = false, judge = false, hull = false, trace = false,
        json = false;
 };
-
-RelativePose ParsePose(const std::vector<std::string>& words) {
-  if (words.empty()) return RelativePose();
-  if (words.size() != 12) {
-    throw BadInput{"--pose: takes 12 numbers, the rows of [R | t], not " +
-                   std::to_string(words.size())};
-  }
-  Eigen::Matrix3d rotation;
-  Eigen::Vector3d translation;
-  for (int k = 0; k < 12; ++k) {
-    const auto number = ParseDouble(words[k]);
-    if (!number) throw BadInput{"--pose: '" + words[k] + "' is not a number"};
-    (k % 4 == 3 ? translation[k / 4] : rotation(k / 4, k % 4)) = *number;
-  }
-  StatusOr<RelativePose> pose = RelativePose::Make(rotation, translation);
-  if (!pose.ok()) throw BadInput{"--pose: " + pose.status().ToString()};
-  return *pose;
-}
 
 ConvexPolyhedron Load(const std::string& path, bool hull) {
   Loaded<ConvexPolyhedron> body = ReadBody(path, hull);

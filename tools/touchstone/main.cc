@@ -32,6 +32,7 @@ int Run(int argc, char** argv) {
   AddReplay(app, exit_code);
   AddBench(app, exit_code);
   AddEngines(app, exit_code);
+  AddMembership(app, exit_code);
   // Otherwise CLI11 says only that a subcommand is required.
   const auto is_asked = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_asked).empty()) {

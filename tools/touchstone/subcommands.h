@@ -7,6 +7,7 @@
 #include <string>
 
 #include "touchstone/core/cd_dual/result.h"
+#include "touchstone/tools/bad_input.h"
 
 namespace touchstone {
 
@@ -17,16 +18,12 @@ enum ExitCode {
   kBadInput = 2,  // bad usage or bad data; one line on stderr says what
 };
 
-// Thrown by a subcommand for bad usage or data.
-struct BadInput {
-  std::string message;
-};
-
 // One subcommand a file. Each registers its arguments; when it is the one that was asked for, it
 // runs and leaves the exit code.
 void AddBench(CLI::App& app, int& exit_code);
 void AddCollide(CLI::App& app, int& exit_code);
 void AddEngines(CLI::App& app, int& exit_code);
+void AddMembership(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
 void AddSuites(CLI::App& app, int& exit_code);
 void AddVerify(CLI::App& app, int& exit_code);
