@@ -37,6 +37,20 @@ std::vector<Finding> JudgePenetration(const ExactBody& p, const ExactBody& q,
                                       const RelativePose& pose, const PenetrationResult& result,
                                       const ProximityJudgeOptions& options = {});
 
+// The same for "when do they meet along s?". The facets at both ends and the separator are proofs
+// and are checked as such; that the line meets M's shadow, grazes it or misses it, also from
+// scratch over all edges (all_faces). Requires an s that DirectionalDistance takes. Complexity: O(m
+// + n), with all_faces O((m + n)^2).
+std::vector<Finding> JudgeDirection(const ExactBody& p, const ExactBody& q,
+                                    const RelativePose& pose, const Eigen::Vector3d& s,
+                                    const DirectionalResult& result,
+                                    const ProximityJudgeOptions& options = {});
+
+// What is wrong with the paper's own construction, by a judged answer to the same question. A
+// travel may be off by 1e-9 of its condition, the construction being in doubles.
+std::vector<Finding> JudgePublishedTravel(const PublishedTravel& published,
+                                          const DirectionalResult& truth);
+
 }  // namespace touchstone::exact
 
 #endif  // TOUCHSTONE_EXACT_JUDGE_PROXIMITY_H_

@@ -70,6 +70,11 @@ void MinkowskiDifference::ChooseInterior(int i, int j) {
   c_norm_ = c_.norm();
 }
 
+void MinkowskiDifference::PlaceInterior(const Eigen::Vector3d& c) {
+  c_ = c;
+  c_norm_ = c.norm();
+}
+
 bool ChooseInteriorDifference(MinkowskiDifference* m) {
   const double smaller = std::min(m->p().diameter_bound(), m->q().diameter_bound());
   if (m->Unscale(m->c_norm()) >= 1e-3 * smaller) return true;

@@ -83,6 +83,8 @@ class MinkowskiDifference {
   int interior_q() const { return interior_q_; }
   // Takes c from interior points i of P and j of Q.
   void ChooseInterior(int i, int j);
+  // Takes a point of M as c, scaled: for searches alone, since proofs know c by its interior points.
+  void PlaceInterior(const Eigen::Vector3d& c);
 
   const Eigen::Vector3d& PointOfP(int v) const {
     return v == kInteriorPoint ? p_.interior_point(interior_p_) : p_.vertex(v);

@@ -27,4 +27,18 @@ std::string_view ToString(TravelKind kind) {
   return "?";
 }
 
+std::string_view ToString(PublishedTravelKind kind) {
+  switch (kind) {
+    case PublishedTravelKind::kTravel:
+      return "travel";
+    case PublishedTravelKind::kNever:
+      return "never";
+    case PublishedTravelKind::kCoincident:
+      return "coincident";
+    case PublishedTravelKind::kOnBoundary:
+      return "on_boundary";
+  }
+  return "?";
+}
+
 }  // namespace touchstone

@@ -142,24 +142,46 @@ struct DirectionalResult {
   TravelKind kind = TravelKind::kUndecided;
   Tier tier = Tier::kNone;
 
-  // For kInterval, enter <= leave; equal where the line touches M in one point. Zero is exact:
-  // enter.travel.value <= 0 <= leave.travel.value if and only if P and Q meet as they are.
+  // For kInterval, enter <= leave; equal where the line touches M in one point. Under kExact the
+  // signs are exact: enter.travel.value <= 0 <= leave.travel.value if and only if P and Q meet as
+  // they are, and a travel of zero has no error.
   TravelEnd enter, leave;
-  // The line runs in the boundary of M: it touches M without entering it.
+  // The line runs in the boundary of M and nowhere inside: for no travel do P and Q overlap. Known
+  // under kExact.
   bool grazing = false;
 
-  // For kNever, the proof: the plane spanned by s and the difference of two vertices of M keeps M
-  // strictly on the far side from the line. With N = (w1 - w0) x s: N.x <= N.w0 < 0 over M. Or,
-  // where one vertex alone is nearest (`separator_size` 1), N = s x (s x w0): the same.
+  // For kNever, the proof. N = (w1 - w0) x s for these two vertices of M: N.x <= N.w0 < 0 for all x
+  // in M, while N.(t s) = 0.
   std::array<VertexPair, 2> separator;
-  int separator_size = 0;
 
   PhaseCounts counts;
   long exact_signs = 0;
 };
 
+// What the paper's own construction (section 6) makes of the question.
+enum class PublishedTravelKind {
+  kTravel,      // a travel at which P and Q touch
+  kNever,       // no triangle of the fan holds the shadow of o
+  kCoincident,  // c = o: it points nowhere
+  kOnBoundary,  // c is on the boundary of M, where the formula for d divides by zero
+};
+
+struct PublishedTravel {
+  PublishedTravelKind kind = PublishedTravelKind::kNever;
+  // The three corners of the fan's triangle, and the weights u, v, w of the shadow of o in it; in
+  // doubles, as is all of this.
+  std::array<VertexPair, 3> corners;
+  std::array<double, 3> weights{};
+  double c_travel = 0.0;  // k: c = k s
+  // For kTravel: t, from g, with the face that SEARCH-FV, SEARCH-VF and SEARCH-EE end on.
+  double travel = 0.0;
+  FaceClass face_class = FaceClass::kFaceVertex;
+  Feature feature_p, feature_q;
+};
+
 std::string_view ToString(DistanceKind);
 std::string_view ToString(TravelKind);
+std::string_view ToString(PublishedTravelKind);
 
 }  // namespace touchstone
 

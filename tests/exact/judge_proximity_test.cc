@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The judges of distance and depth can fail: each planted fault is found, under its own name, and
-// sound results pass. And the exact searches that they rest on agree with M built whole.
+// The judges of distance, depth and travel can fail: each planted fault is found, under its own
+// name, and sound results pass. And the exact searches that they rest on agree with M built whole.
 #include "touchstone/exact/judge_proximity.h"
 
 #include <gmock/gmock.h>
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "touchstone/core/proximity/directional_distance.h"
 #include "touchstone/core/proximity/distance.h"
 #include "touchstone/core/proximity/penetration_depth.h"
 #include "touchstone/exact/convex_minkowski.h"
@@ -57,9 +58,17 @@ class JudgeProximityTest : public testing::Test {
     return Kinds(JudgePenetration(p_, q_, overlapping_, result, {.construct = true}));
   }
 
+  DirectionalResult Along(const Eigen::Vector3d& s) const {
+    return *DirectionalDistance(p_.body(), q_.body(), apart_, s);
+  }
+  std::vector<FindingKind> Judged(const Eigen::Vector3d& s, const DirectionalResult& result) const {
+    return Kinds(JudgeDirection(p_, q_, apart_, s, result, {.construct = true}));
+  }
+
   Random random_;
   ExactBody p_, q_;
   RelativePose apart_, overlapping_;
+  const Eigen::Vector3d toward_{-2.0, -2.0, -0.5}, past_{0.0, 0.0, 3.0};
 };
 
 TEST_F(JudgeProximityTest, SoundResultsPass) {
@@ -298,6 +307,111 @@ TEST_F(JudgeProximityTest, InnerPolytopesThatProveNothing) {
   EXPECT_THAT(Judged(result), UnorderedElementsAre(FindingKind::kBadCertificate));
 }
 
+TEST_F(JudgeProximityTest, SoundTravelsPass) {
+  ASSERT_EQ(Along(toward_).kind, TravelKind::kInterval);
+  EXPECT_THAT(Judged(toward_, Along(toward_)), IsEmpty());
+  ASSERT_EQ(Along(past_).kind, TravelKind::kNever);
+  EXPECT_THAT(Judged(past_, Along(past_)), IsEmpty());
+  EXPECT_THAT(Judged(1e-90 * toward_, Along(1e-90 * toward_)), IsEmpty());
+}
+
+TEST_F(JudgeProximityTest, TravelsOfTheWrongKind) {
+  // Never, where they meet: no separator can show it.
+  DirectionalResult result = Along(toward_);
+  result.kind = TravelKind::kNever;
+  result.separator = {result.enter.facet->triangle[0], result.enter.facet->triangle[1]};
+  EXPECT_THAT(Judged(toward_, result),
+              UnorderedElementsAre(FindingKind::kBadCertificate, FindingKind::kWrongVerdict));
+  // An interval, where they do not.
+  result = Along(toward_);
+  EXPECT_THAT(Judged(past_, result), Contains(FindingKind::kWrongVerdict));
+  result.kind = TravelKind::kUndecided;
+  EXPECT_THAT(Judged(toward_, result), UnorderedElementsAre(FindingKind::kUndecided));
+  result = Along(toward_);
+  result.grazing = true;
+  EXPECT_THAT(Judged(toward_, result), UnorderedElementsAre(FindingKind::kWrongVerdict));
+}
+
+TEST_F(JudgeProximityTest, SeparatorsThatAreNot) {
+  DirectionalResult result = Along(past_);
+  std::swap(result.separator[0], result.separator[1]);
+  EXPECT_THAT(Judged(past_, result), UnorderedElementsAre(FindingKind::kBadCertificate));
+  result = Along(past_);
+  result.separator[1] = result.separator[0];
+  EXPECT_THAT(Judged(past_, result), UnorderedElementsAre(FindingKind::kBadCertificate));
+  result = Along(past_);
+  result.separator[0].p = (result.separator[0].p + 7) % 20;
+  EXPECT_THAT(Judged(past_, result), UnorderedElementsAre(FindingKind::kBadCertificate));
+  result.separator[0].q = 20;
+  EXPECT_THAT(Judged(past_, result), UnorderedElementsAre(FindingKind::kBadCertificate));
+}
+
+TEST_F(JudgeProximityTest, TravelsOutOfTheirBounds) {
+  DirectionalResult result = Along(toward_);
+  result.enter.travel.value += 4.0 * result.enter.travel.error;
+  EXPECT_THAT(Judged(toward_, result), UnorderedElementsAre(FindingKind::kValueOutOfBounds));
+  result = Along(toward_);
+  result.leave.travel.error = 1e-9;
+  EXPECT_THAT(Judged(toward_, result), UnorderedElementsAre(FindingKind::kLooseBound));
+  result = Along(toward_);
+  result.leave.travel.condition = 1e9;
+  EXPECT_THAT(Judged(toward_, result), UnorderedElementsAre(FindingKind::kLooseBound));
+  result = Along(toward_);
+  result.leave.travel.value = result.enter.travel.value * 0.5;
+  EXPECT_THAT(Judged(toward_, result), Contains(FindingKind::kValueOutOfBounds));
+  result = Along(toward_);
+  result.enter.travel.value = kNan;
+  EXPECT_THAT(Judged(toward_, result), Contains(FindingKind::kValueOutOfBounds));
+}
+
+TEST_F(JudgeProximityTest, EndsThatAreNot) {
+  DirectionalResult result = Along(toward_);
+  std::swap(result.enter.facet, result.leave.facet);
+  EXPECT_THAT(Judged(toward_, result),
+              UnorderedElementsAre(FindingKind::kNotAFace, FindingKind::kNotAFace));
+  result = Along(toward_);
+  result.enter.facet.reset();
+  EXPECT_THAT(Judged(toward_, result), UnorderedElementsAre(FindingKind::kMissingPart));
+  result = Along(toward_);
+  result.leave.facet->triangle[0].p = (result.leave.facet->triangle[0].p + 5) % 20;
+  EXPECT_THAT(Judged(toward_, result), Contains(FindingKind::kNotAFace));
+  // Other lines' facets: of M, but this line misses them.
+  int others = 0;
+  for (int i = 0; i < 100; ++i) {
+    const DirectionalResult other = Along(toward_ + 2.0 * random_.OnSphere());
+    result = Along(toward_);
+    if (other.kind != TravelKind::kInterval ||
+        (other.enter.facet->feature_p == result.enter.facet->feature_p &&
+         other.enter.facet->feature_q == result.enter.facet->feature_q)) {
+      continue;
+    }
+    result.enter.facet = other.enter.facet;
+    EXPECT_THAT(Judged(toward_, result), Contains(FindingKind::kNotAFace));
+    ++others;
+  }
+  EXPECT_GT(others, 10);
+  result = Along(toward_);
+  result.enter.facet->feature_p.index = (result.enter.facet->feature_p.index + 3) % 20;
+  EXPECT_THAT(Judged(toward_, result), Contains(FindingKind::kWrongClass));
+}
+
+TEST_F(JudgeProximityTest, PublishedTravelsAreHeldToTheTruth) {
+  const DirectionalResult truth = Along(toward_);
+  PublishedTravel published =
+      *DirectionalDistanceAsPublished(p_.body(), q_.body(), apart_, toward_);
+  ASSERT_EQ(published.kind, PublishedTravelKind::kTravel);
+  EXPECT_THAT(Kinds(JudgePublishedTravel(published, truth)), IsEmpty());
+  published.travel *= 1.001;
+  EXPECT_THAT(Kinds(JudgePublishedTravel(published, truth)),
+              UnorderedElementsAre(FindingKind::kNotOptimal));
+  published.kind = PublishedTravelKind::kOnBoundary;
+  EXPECT_THAT(Kinds(JudgePublishedTravel(published, truth)),
+              UnorderedElementsAre(FindingKind::kMissingPart));
+  published.kind = PublishedTravelKind::kNever;
+  EXPECT_THAT(Kinds(JudgePublishedTravel(published, truth)),
+              UnorderedElementsAre(FindingKind::kWrongVerdict));
+}
+
 // The judge's own searches against M built whole: small bodies, many ties.
 TEST(NearestTiers, SearchesAgreeWithMBuiltWhole) {
   Random random(62);
@@ -362,6 +476,11 @@ TEST(JudgedProximity, GridsAndBoxesHaveNoFindings) {
     const auto findings = JudgePenetration(p, q, pose, depth, how);
     EXPECT_THAT(Kinds(findings), IsEmpty()) << i << ": " << findings[0].detail;
     ++kinds[static_cast<int>(depth.verdict)];
+    Eigen::Vector3d s(random.Integer(-2, 2), random.Integer(-2, 2), random.Integer(-2, 2));
+    if (s.isZero(0)) s = random.OnSphere();
+    const auto travels =
+        JudgeDirection(p, q, pose, s, *DirectionalDistance(p.body(), q.body(), pose, s), how);
+    EXPECT_THAT(Kinds(travels), IsEmpty()) << i << ": " << travels[0].detail;
   }
   for (const int count : kinds) EXPECT_GT(count, 20);
 }

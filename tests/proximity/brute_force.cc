@@ -73,6 +73,26 @@ double Height(const Points& points, const Eigen::Vector3d& n) {
   return height;
 }
 
+// visit(n, height of M along n) for the normals of all faces and pairs of edges, either sense.
+template <class Visit>
+void ForEachPlane(const ConvexPolyhedron& p, const ConvexPolyhedron& q, const RelativePose& pose,
+                  const Visit& visit) {
+  const Points a(p.vertices().begin(), p.vertices().end()), b = Placed(q, pose);
+  const auto consider = [&](const Eigen::Vector3d& n) { visit(n, Height(a, n) + Height(b, -n)); };
+  for (int f = 0; f < p.face_count(); ++f) consider(p.face_normal(f));
+  for (int f = 0; f < q.face_count(); ++f) consider(-(pose.rotation() * q.face_normal(f)));
+  for (int e = 0; e < p.edge_count(); ++e) {
+    for (int f = 0; f < q.edge_count(); ++f) {
+      const Eigen::Vector3d u = (a[p.edge(e).head] - a[p.edge(e).tail]).normalized();
+      const Eigen::Vector3d v = (b[q.edge(f).head] - b[q.edge(f).tail]).normalized();
+      const Eigen::Vector3d n = u.cross(v);
+      if (n.norm() < 1e-6) continue;
+      consider(n);
+      consider(-n);
+    }
+  }
+}
+
 ConvexPolyhedron ScaledBody(const ConvexPolyhedron& body, double factor) {
   Mesh mesh;
   for (const Eigen::Vector3d& v : body.vertices()) mesh.vertices.push_back(factor * v);
@@ -106,24 +126,37 @@ double DistanceByBruteForce(const ConvexPolyhedron& p, const ConvexPolyhedron& q
 
 double DepthByBruteForce(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
                          const RelativePose& pose) {
-  const Points a(p.vertices().begin(), p.vertices().end()), b = Placed(q, pose);
   double least = std::numeric_limits<double>::infinity();
-  const auto consider = [&](const Eigen::Vector3d& n) {
-    least = std::min(least, (Height(a, n) + Height(b, -n)) / n.norm());
-  };
-  for (int f = 0; f < p.face_count(); ++f) consider(p.face_normal(f));
-  for (int f = 0; f < q.face_count(); ++f) consider(-(pose.rotation() * q.face_normal(f)));
-  for (int e = 0; e < p.edge_count(); ++e) {
-    for (int f = 0; f < q.edge_count(); ++f) {
-      const Eigen::Vector3d u = (a[p.edge(e).head] - a[p.edge(e).tail]).normalized();
-      const Eigen::Vector3d v = (b[q.edge(f).head] - b[q.edge(f).tail]).normalized();
-      const Eigen::Vector3d n = u.cross(v);
-      if (n.norm() < 1e-6) continue;
-      consider(n);
-      consider(-n);
-    }
-  }
+  ForEachPlane(p, q, pose, [&](const Eigen::Vector3d& n, double height) {
+    least = std::min(least, height / n.norm());
+  });
   return least;
+}
+
+TravelBounds TravelByBruteForce(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
+                                const RelativePose& pose, const Eigen::Vector3d& s) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  TravelBounds bounds{-infinity, infinity, infinity};
+  ForEachPlane(p, q, pose, [&](const Eigen::Vector3d& n, double height) {
+    const double along = n.dot(s);
+    if (std::abs(along) < 1e-9 * n.norm() * s.norm()) return;
+    if (along > 0.0) {
+      bounds.leave = std::min(bounds.leave, height / along);
+    } else {
+      bounds.enter = std::max(bounds.enter, height / along);
+    }
+  });
+  const Points a(p.vertices().begin(), p.vertices().end()), b = Placed(q, pose);
+  const auto across = [&](const Eigen::Vector3d& edge) {
+    const Eigen::Vector3d n = edge.normalized().cross(s.normalized());
+    if (n.norm() < 1e-9) return;
+    const Eigen::Vector3d unit = n.normalized();
+    bounds.least_across = std::min({bounds.least_across, Height(a, unit) + Height(b, -unit),
+                                    Height(a, -unit) + Height(b, unit)});
+  };
+  for (int e = 0; e < p.edge_count(); ++e) across(a[p.edge(e).head] - a[p.edge(e).tail]);
+  for (int e = 0; e < q.edge_count(); ++e) across(b[q.edge(e).head] - b[q.edge(e).tail]);
+  return bounds;
 }
 
 double SizeOf(const ConvexPolyhedron& p, const ConvexPolyhedron& q, const RelativePose& pose) {

@@ -24,6 +24,15 @@ double DistanceByBruteForce(const ConvexPolyhedron& p, const ConvexPolyhedron& q
 double DepthByBruteForce(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
                          const RelativePose& pose);
 
+// What the same planes leave of the line {t s}: those that face along s bound the travel from
+// above, the others from below; `least_across` is the least height of M over o along normals across
+// s, over the edges of P and Q. Planes nearly along s are left out.
+struct TravelBounds {
+  double enter, leave, least_across;
+};
+TravelBounds TravelByBruteForce(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
+                                const RelativePose& pose, const Eigen::Vector3d& s);
+
 // The largest coordinate of P, of Q and of the translation, added up.
 double SizeOf(const ConvexPolyhedron& p, const ConvexPolyhedron& q, const RelativePose& pose);
 
