@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Proximity queries do not touch the heap once the caller's cache has grown to what they need.
+// Collide never touches the heap in doubles; proximity queries do not once the caller's cache has
+// grown to what they need.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cstdlib>
 #include <new>
 
+#include "touchstone/core/cd_dual/cd_dual.h"
 #include "touchstone/core/proximity/distance.h"
 #include "touchstone/core/proximity/penetration_depth.h"
 #include "touchstone/tests/proximity/brute_force.h"
@@ -21,11 +23,48 @@ void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto align = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(size);
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 
 namespace touchstone::testing {
 namespace {
+
+TEST(Allocation, NoneInACollisionQuery) {
+  for (const int n : {8, 20, 300}) {
+    const ConvexPolyhedron p = MustBuild(RoundBody(n, {2, 1, 1}, 53));
+    const ConvexPolyhedron q = MustBuild(RoundBody(n, {1, 1.5, 0.7}, 54));
+    long queries = 0;
+    for (int step = 0; step < 60; ++step) {
+      const RelativePose pose =
+          MustPose(Eigen::AngleAxisd(0.1 * step, Eigen::Vector3d::UnitX()).toRotationMatrix(),
+                   {0.07 * step, 0.3, -0.2});
+      CollideCache cache;
+      for (const bool early_exit : {true, false}) {
+        for (CollideCache* held : {static_cast<CollideCache*>(nullptr), &cache}) {
+          const long before = allocations;
+          const CollideResult result = Collide(p, q, pose, {.early_exit = early_exit}, held);
+          if (result.exact_signs > 0) continue;  // big numbers may allocate
+          ++queries;
+          EXPECT_EQ(allocations, before);
+        }
+      }
+    }
+    EXPECT_GT(queries, 200);
+  }
+}
 
 TEST(Allocation, NoneInAQueryAfterTheFirst) {
   const ConvexPolyhedron p = MustBuild(RoundBody(100, {2, 1, 1}, 51));
