@@ -5,6 +5,8 @@ packages=(g++ cmake ninja-build libeigen3-dev libboost-dev libcgal-dev libgmp-de
           libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev libtbb-dev
           libccd-dev libfcl-dev libbullet-dev)
 mesh_package=libcgal-demo
+# What draws the figures of `touchstone bench`.
+plot_packages=(python3-matplotlib)
 # Meshes of more bytes take longer to read than they are worth.
 max_mesh_size=1500k
 

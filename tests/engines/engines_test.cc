@@ -137,25 +137,21 @@ TEST(Engines, MeasureKnownDistancesAndDepths) {
     const std::unique_ptr<Engine> engine = description.make(description.best_tolerance);
     const Placed apart(*engine, p, q, Pose(Matrix3d::Identity(), {0, 5, 0.25}));
     const Placed deep(*engine, p, q, Pose(Matrix3d::Identity(), {0.5, 2.75, 0.125}));
-    const EngineValues far = apart.pair->Measure(), near = deep.pair->Measure();
     // Distances and depths of these engines are good to about 1e-4 at worst (EPA in Bullet).
-    if (far.distance) {
-      EXPECT_NEAR(*far.distance, 2.0, 1e-3) << description.name;
+    if (const auto distance = apart.pair->Measure(Quantity::kDistance)) {
+      EXPECT_NEAR(distance->value, 2.0, 1e-3) << description.name;
       ++distances;
     }
-    if (near.depth) {
-      EXPECT_NEAR(*near.depth, 0.25, 1e-3) << description.name;
+    if (const auto depth = deep.pair->Measure(Quantity::kDepth)) {
+      EXPECT_NEAR(depth->value, 0.25, 1e-3) << description.name;
       ++depths;
     }
-    if (far.exit_travel) {
-      EXPECT_GT(*far.exit_travel, 0.0) << description.name;
+    if (const auto travel = apart.pair->Measure(Quantity::kExitTravel)) {
+      EXPECT_GT(travel->value, 0.0) << description.name;
+      EXPECT_LT(deep.pair->Measure(Quantity::kExitTravel)->value, 0.0) << description.name;
       ++travels;
     }
-    if (near.exit_travel) {
-      EXPECT_LT(*near.exit_travel, 0.0) << description.name;
-    }
-    EXPECT_FALSE(far.depth) << description.name;
-    EXPECT_FALSE(near.distance) << description.name;
+    EXPECT_FALSE(apart.pair->Measure(Quantity::kDepth)) << description.name;
   }
   EXPECT_GE(travels, 3);    // our searches
   EXPECT_GE(distances, 1);  // enhanced GJK at least

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """plot.py DIR: draws the figures whose CSV files `touchstone bench figures` left in DIR, as SVG.
 
@@ -18,6 +18,8 @@ import matplotlib
 
 matplotlib.use("svg")
 matplotlib.rcParams["svg.hashsalt"] = "touchstone"  # the same file for the same numbers
+matplotlib.rcParams["svg.fonttype"] = "none"  # text stays text: smaller, and searchable
+matplotlib.rcParams["font.family"] = ["DejaVu Sans", "sans-serif"]
 import matplotlib.pyplot as plt  # noqa: E402
 
 # Ours in one colour family and thick, others apart; the same everywhere.
@@ -77,7 +79,7 @@ def time_against_gap(directory, source, target, panel_key, panel_title, title):
     panels = list(dict.fromkeys(row[panel_key] for row in rows))
     columns = min(2, len(panels))
     lines = math.ceil(len(panels) / columns)
-    figure, axes = plt.subplots(lines, columns, figsize=(10, 3.4 * lines + 1.2), squeeze=False)
+    figure, axes = plt.subplots(lines, columns, figsize=(10, 3.4 * lines + 0.8), squeeze=False)
     handles = {}
     for axis, panel in zip(axes.flat, panels):
         curves = collections.defaultdict(list)
@@ -97,7 +99,7 @@ def time_against_gap(directory, source, target, panel_key, panel_title, title):
     for axis in list(axes.flat)[len(panels):]:
         axis.set_visible(False)
     figure.suptitle(title, fontsize=11)
-    figure.tight_layout(rect=(0, 0.9 / figure.get_figheight(), 1, 1))
+    figure.tight_layout(rect=(0, 0.55 / figure.get_figheight(), 1, 1))
     legend_below(figure, handles.values(), handles.keys(), 6)
     save(figure, directory, target)
 
@@ -124,9 +126,10 @@ def figure_10(directory):
     save(figure, directory, "figure10.svg")
 
 
-# Where a rate of zero is drawn: below the least that could have been seen.
-def drawn_rate(wrong, queries):
-    return wrong / queries if wrong > 0 else 0.3 / queries
+# Where a rate of zero is drawn: below the least that could have been seen. Engines
+# that share it are drawn a little apart.
+def drawn_rate(wrong, queries, floor, position):
+    return wrong / queries if wrong > 0 else floor * 0.93**position
 
 
 def error_verdicts(directory):
@@ -137,7 +140,7 @@ def error_verdicts(directory):
     sizes = sorted({abs(float(row["gap"])) for row in rows})
     shown = [s for s in sizes if s in (1e-12, 1e-9, 1e-6, 1e-3, 1.0)]
     figure, axes = plt.subplots(len(shapes), len(shown), sharey=True, squeeze=False,
-                                figsize=(2.9 * len(shown) + 0.6, 3.2 * len(shapes) + 1.3))
+                                figsize=(2.9 * len(shown) + 0.6, 3.2 * len(shapes) + 0.9))
     handles = {}
     for line, shape in enumerate(shapes):
         for column, size in enumerate(shown):
@@ -151,6 +154,7 @@ def error_verdicts(directory):
                     point[2] += int(row["queries"])
                     point[3].append(float(row["median_ns"]))
             floor = min(0.3 / p[2] for p in points.values())
+            order = list(dict.fromkeys(engine for engine, _ in points))
             for (engine, tolerance), (wrong, undecided, queries, times) in points.items():
                 colour, _, marker, _ = style(engine)
                 time = sum(times) / len(times)
@@ -159,12 +163,12 @@ def error_verdicts(directory):
                 if engine.startswith("portal"):
                     area = 70
                 handles[engine] = axis.scatter(
-                    time, drawn_rate(wrong, queries), s=area, marker=marker, edgecolors=colour,
+                    time, drawn_rate(wrong, queries, floor, order.index(engine)), s=area, marker=marker, edgecolors=colour,
                     facecolors="none" if undecided > 0 else colour, linewidths=1.0, zorder=3)
-            axis.axhspan(floor * 0.4, floor * 2.0, color="#e8f5e9", zorder=0)
+            axis.axhspan(floor * 0.3, floor * 1.5, color="#e8f5e9", zorder=0)
             axis.set_xscale("log")
             axis.set_yscale("log")
-            axis.set_ylim(floor * 0.4, 1.5)
+            axis.set_ylim(floor * 0.3, 1.5)
             axis.grid(True, which="major", color="#dddddd", linewidth=0.5)
             axis.tick_params(labelsize=7)
             if line == 0:
@@ -176,7 +180,7 @@ def error_verdicts(directory):
     figure.suptitle("Fast is left, right is the green band, both is its left end\n"
                     "(markers grow as the tolerance tightens; hollow: some answers undecided)",
                     fontsize=10)
-    figure.tight_layout(rect=(0, 0.8 / figure.get_figheight(), 1, 1))
+    figure.tight_layout(rect=(0, 0.5 / figure.get_figheight(), 1, 1))
     solid = {e: matplotlib.lines.Line2D([], [], linestyle="", color=style(e)[0],
                                         marker=style(e)[2], markersize=6) for e in handles}
     legend_below(figure, solid.values(), solid.keys(), 6)
@@ -202,8 +206,7 @@ def error_gaps(directory):
         for position, (engine, by_size) in enumerate(counts.items()):
             colour, dash, marker, width = style(engine)
             sizes = sorted(by_size)
-            # Curves that lie at zero are drawn side by side.
-            rates = [by_size[s][0] / by_size[s][1] or floor * 0.93**position for s in sizes]
+            rates = [drawn_rate(*by_size[s], floor, position) for s in sizes]
             (handles[engine],) = axis.plot(sizes, rates, dash, color=colour, marker=marker,
                                            markersize=4, linewidth=width)
         axis.axhspan(floor * 0.3, floor * 1.5, color="#e8f5e9", zorder=0)

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "touchstone/core/base/vector_clones.h"
+#include "touchstone/core/convex/hierarchical_support.h"
 #include "touchstone/core/convex/support.h"
 #include "touchstone/tools/bench/workload.h"
 #include "touchstone/tools/engines/scan_support.h"
@@ -62,7 +63,8 @@ Pass MakePass(Find find) {
   };
 }
 
-std::vector<Method> MakeMethods(const ConvexPolyhedron& body, const ScanSupport& scan) {
+std::vector<Method> MakeMethods(const ConvexPolyhedron& body, const ScanSupport& scan,
+                                const HierarchicalSupport& hierarchy) {
   std::vector<Method> methods;
   methods.push_back({"scan, scalar", MakePass([&](const Vector3d& d, int) {
                        return SupportVertexByScan(body, d);
@@ -79,6 +81,8 @@ std::vector<Method> MakeMethods(const ConvexPolyhedron& body, const ScanSupport&
   methods.push_back(
       {"climb from the last, 1 degree apart",
        MakePass([&](const Vector3d& d, int last) { return SupportVertex(body, d, last); }), true});
+  methods.push_back({"hierarchy (Dobkin, Kirkpatrick)",
+                     MakePass([&](const Vector3d& d, int) { return hierarchy.Find(d); })});
   return methods;
 }
 
@@ -132,12 +136,13 @@ void RunCase(const SupportBenchOptions& options, const SupportBenchCase& test,
   const Workload workload = MakeRepeatWorkload({test.shape, test.n, options.seed, ""}, 0);
   const ConvexPolyhedron& body = workload.bodies[0];
   const ScanSupport scan(body);
+  const HierarchicalSupport hierarchy(body);
   Random random("support_bench", options.seed, static_cast<std::uint64_t>(test.n));
   // Scans of large bodies need fewer directions for the same precision.
   const int count = std::clamp(40000000 / body.vertex_count(), 64, options.directions);
   const std::vector<Vector3d> spread = RandomDirections(random, count);
   const std::vector<Vector3d> slow = SlowDirections(random, count);
-  const std::vector<Method> methods = MakeMethods(body, scan);
+  const std::vector<Method> methods = MakeMethods(body, scan, hierarchy);
   std::vector<std::vector<double>> independent(methods.size()), dependent(methods.size());
   for (int turn = 0; turn < options.turns; ++turn) {
     for (std::size_t m = 0; m < methods.size(); ++m) {

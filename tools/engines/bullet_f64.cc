@@ -57,16 +57,20 @@ class Pair : public EnginePair {
     return results.status == Results::Penetrating ? Verdict::kOverlap : Verdict::kUndecided;
   }
 
-  EngineValues Measure() const override {
-    EngineValues values;
+  std::optional<EngineValue> Measure(Quantity quantity) const override {
     Results results;
     const btVector3 guess = q_pose_.getOrigin();
-    if (btGjkEpaSolver2::Distance(&p_, p_pose_, &q_, q_pose_, guess, results)) {
-      values.distance = results.distance;
-    } else if (btGjkEpaSolver2::Penetration(&p_, p_pose_, &q_, q_pose_, guess, results, false)) {
-      values.depth = -results.distance;
+    if (quantity == Quantity::kDistance) {
+      if (!btGjkEpaSolver2::Distance(&p_, p_pose_, &q_, q_pose_, guess, results))
+        return std::nullopt;
+      return EngineValue{results.distance};
     }
-    return values;
+    if (quantity == Quantity::kDepth) {
+      if (!btGjkEpaSolver2::Penetration(&p_, p_pose_, &q_, q_pose_, guess, results, false))
+        return std::nullopt;
+      return EngineValue{-results.distance};
+    }
+    return std::nullopt;
   }
 
  private:

@@ -4,9 +4,11 @@
 #ifndef TOUCHSTONE_TOOLS_ENGINES_ENGINE_H_
 #define TOUCHSTONE_TOOLS_ENGINES_ENGINE_H_
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "touchstone/core/base/relative_pose.h"
@@ -26,12 +28,19 @@ enum class TouchConvention {
 // never wrong: it is counted apart.
 bool IsWrong(TouchConvention convention, Verdict answer, Verdict truth);
 
-// What an engine says of a pair besides the verdict; absent where it has no such query. Values are
-// passed on as they come, so they may be NaN.
-struct EngineValues {
-  std::optional<double> distance;     // Euclidean, of a separate pair
-  std::optional<double> depth;        // least translation that separates an overlapping pair
-  std::optional<double> exit_travel;  // g of core/cd_dual/result.h, from these interior points
+// What an engine may say of a pair besides the verdict.
+enum class Quantity {
+  kDistance,    // Euclidean, of a separate pair
+  kDepth,       // the least translation that separates an overlapping pair
+  kExitTravel,  // g of core/cd_dual/result.h
+};
+inline constexpr std::array kAllQuantities = {Quantity::kExitTravel, Quantity::kDistance,
+                                              Quantity::kDepth};
+std::string_view ToString(Quantity quantity);
+
+struct EngineValue {
+  double value = 0.0;  // as the engine gave it: it may be NaN
+  // kExitTravel: the interior points between which the line runs.
   int interior_p = 0, interior_q = 0;
 };
 
@@ -57,7 +66,8 @@ class EnginePair {
   // with the same two shapes. kUndecided where the engine says so itself, or where it was stopped
   // at its bound on iterations.
   virtual Verdict Ask(EngineCache* cache) const = 0;
-  virtual EngineValues Measure() const { return {}; }
+  // Nothing where the engine has no such query, or not for a pair with this verdict.
+  virtual std::optional<EngineValue> Measure(Quantity /*quantity*/) const { return std::nullopt; }
 };
 
 class Engine {

@@ -225,13 +225,13 @@ class Pair : public EnginePair {
     return EnhancedGjk(p_.body, q_.body, pose_, options_, simplex).verdict;
   }
 
-  EngineValues Measure() const override {
+  std::optional<EngineValue> Measure(Quantity quantity) const override {
+    if (quantity != Quantity::kDistance) return std::nullopt;
     GjkOptions options = options_;
     options.want_distance = true;
     const GjkResult result = EnhancedGjk(p_.body, q_.body, pose_, options);
-    EngineValues values;
-    if (result.verdict == Verdict::kSeparate) values.distance = result.distance;
-    return values;
+    if (result.verdict != Verdict::kSeparate) return std::nullopt;
+    return EngineValue{result.distance};
   }
 
  private:
@@ -272,7 +272,8 @@ void DescribeEnhancedGjk(std::vector<EngineDescription>& engines) {
   engine.summary = "GJK after Cameron 1997, the paper's comparator, written here";
   engine.touch = TouchConvention::kEither;
   engine.tolerances = {1e-3, 1e-6, 1e-9, 1e-12, 1e-15};
-  engine.default_tolerance = engine.best_tolerance = 1e-12;
+  engine.default_tolerance = 1e-12;
+  engine.best_tolerance = 1e-15;
   engine.make = [](double tolerance) -> std::unique_ptr<Engine> {
     return std::make_unique<EnhancedGjkEngine>(tolerance);
   };

@@ -62,24 +62,39 @@ class Pair : public EnginePair {
     return meets ? Verdict::kOverlap : Verdict::kSeparate;
   }
 
-  EngineValues Measure() const override {
-    EngineValues values;
-    std::vector<fcl::ContactPointd> contacts;
-    if (solver_.shapeIntersect(p_, fcl::Transform3d::Identity(), q_, q_pose_, &contacts)) {
-      // Its own solver reports the depth with the other sign.
-      constexpr double kSign = std::is_same_v<Solver, OwnSolver> ? -1.0 : 1.0;
-      if (!contacts.empty()) values.depth = kSign * contacts.front().penetration_depth;
-      return values;
+  std::optional<EngineValue> Measure(Quantity quantity) const override {
+    switch (quantity) {
+      case Quantity::kDistance:
+        return Distance();
+      case Quantity::kDepth:
+        return Depth();
+      case Quantity::kExitTravel:
+        return std::nullopt;
     }
-    double distance = 0.0;
-    if (solver_.shapeDistance(p_, fcl::Transform3d::Identity(), q_, q_pose_, &distance, nullptr,
-                              nullptr)) {
-      values.distance = distance;
-    }
-    return values;
+    return std::nullopt;
   }
 
  private:
+  std::optional<EngineValue> Distance() const {
+    double distance = 0.0;
+    if (!solver_.shapeDistance(p_, fcl::Transform3d::Identity(), q_, q_pose_, &distance, nullptr,
+                               nullptr)) {
+      return std::nullopt;
+    }
+    return EngineValue{distance};
+  }
+
+  std::optional<EngineValue> Depth() const {
+    std::vector<fcl::ContactPointd> contacts;
+    if (!solver_.shapeIntersect(p_, fcl::Transform3d::Identity(), q_, q_pose_, &contacts) ||
+        contacts.empty()) {
+      return std::nullopt;
+    }
+    // Its own solver reports the depth with the other sign.
+    constexpr double kSign = std::is_same_v<Solver, OwnSolver> ? -1.0 : 1.0;
+    return EngineValue{kSign * contacts.front().penetration_depth};
+  }
+
   const Convex& p_;
   const Convex& q_;
   fcl::Transform3d q_pose_;

@@ -125,7 +125,8 @@ class Pair : public EnginePair {
     return meets != 0 ? Verdict::kOverlap : Verdict::kSeparate;
   }
 
-  EngineValues Measure() const override {
+  std::optional<EngineValue> Measure(Quantity quantity) const override {
+    if (quantity != Quantity::kDepth) return std::nullopt;
     Object<Body> p{&p_, nullptr};
     Object<Body> q{&q_, &pose_};
     ccd_real_t depth = 0.0;
@@ -133,9 +134,8 @@ class Pair : public EnginePair {
     const int status = kAlgorithm == Algorithm::kGjk
                            ? ccdGJKPenetration(&p, &q, &ccd_, &depth, &direction, &position)
                            : ccdMPRPenetration(&p, &q, &ccd_, &depth, &direction, &position);
-    EngineValues values;
-    if (status == 0 && !p.exhausted() && !q.exhausted()) values.depth = depth;
-    return values;
+    if (status != 0 || p.exhausted() || q.exhausted()) return std::nullopt;
+    return EngineValue{depth};
   }
 
  private:

@@ -38,6 +38,18 @@ std::vector<EngineDescription> AllEngines() {
   return engines;
 }
 
+std::string_view ToString(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kDistance:
+      return "distance";
+    case Quantity::kDepth:
+      return "depth";
+    case Quantity::kExitTravel:
+      return "exit_travel";
+  }
+  return "";
+}
+
 bool IsWrong(TouchConvention convention, Verdict answer, Verdict truth) {
   if (answer == Verdict::kUndecided || answer == truth) return false;
   if (truth != Verdict::kTouch) return true;

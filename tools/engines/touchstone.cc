@@ -20,29 +20,35 @@ struct Cache : EngineCache {
 class Pair : public EnginePair {
  public:
   Pair(const Shape& p, const Shape& q, const RelativePose& pose, const CollideOptions& options)
-      : p_(p.body), q_(q.body), pose_(pose), options_(options) {}
+      : p_(p), q_(q), pose_(pose), options_(options) {}
 
   Verdict Ask(EngineCache* cache) const override {
     CollideCache* last = cache == nullptr ? nullptr : &static_cast<Cache*>(cache)->cache;
-    return Collide(p_, q_, pose_, options_, last).verdict;
+    return Collide(p_.body, q_.body, pose_, options_, last).verdict;
   }
 
-  EngineValues Measure() const override {
-    CollideOptions options = options_;
-    options.early_exit = false;
-    const CollideResult result = Collide(p_, q_, pose_, options);
-    EngineValues values;
-    if (result.exit_travel) {
-      values.exit_travel = result.exit_travel->value;
-      values.interior_p = result.interior_p;
-      values.interior_q = result.interior_q;
+  std::optional<EngineValue> Measure(Quantity quantity) const override {
+    switch (quantity) {
+      case Quantity::kExitTravel:
+        return ExitTravel();
+      case Quantity::kDistance:
+      case Quantity::kDepth:
+        return std::nullopt;
     }
-    return values;
+    return std::nullopt;
   }
 
  private:
-  // Handles, as a user holds them; the bodies' data is the shapes'.
-  ConvexPolyhedron p_, q_;
+  std::optional<EngineValue> ExitTravel() const {
+    CollideOptions options = options_;
+    options.early_exit = false;
+    const CollideResult result = Collide(p_.body, q_.body, pose_, options);
+    if (!result.exit_travel) return std::nullopt;
+    return EngineValue{result.exit_travel->value, result.interior_p, result.interior_q};
+  }
+
+  const Shape& p_;
+  const Shape& q_;
   RelativePose pose_;
   const CollideOptions& options_;
 };

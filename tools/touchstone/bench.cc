@@ -2,7 +2,10 @@
 #include "touchstone/tools/touchstone/bench.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include "touchstone/tools/engines/registry.h"
 #include "touchstone/tools/touchstone/subcommands.h"
@@ -34,10 +37,31 @@ std::vector<EngineDescription> SelectEngines(const std::vector<std::string>& nam
   return selected;
 }
 
+void PrepareFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!std::filesystem::is_directory(path))
+    throw BadInput{path + " is not a folder and cannot be made one"};
+}
+
+void PlotFigures(const std::string& directory) {
+  const std::string command =
+      "/usr/bin/python3 '" TOUCHSTONE_PLOT_SCRIPT "' '" + directory + "' >/dev/null 2>&1";
+  if (std::system(command.c_str()) != 0) {
+    throw BadInput{directory + ": no plots, for /usr/bin/python3 with matplotlib did not run " +
+                   TOUCHSTONE_PLOT_SCRIPT + "; the CSV files are there"};
+  }
+}
+
+void ShowProgress(double fraction) {
+  std::cerr << "\r" << static_cast<int>(100.0 * fraction) << "% " << std::flush;
+}
+
 void AddBench(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bench", "Time engines side by side");
   command->require_subcommand(1);
   AddBenchConvex(*command, exit_code);
+  AddBenchFigures(*command, exit_code);
   AddBenchSupport(*command, exit_code);
 }
 

@@ -14,8 +14,17 @@ namespace touchstone {
 // a name that there is not, or that cannot run.
 std::vector<EngineDescription> SelectEngines(const std::vector<std::string>& names);
 
+// Makes the folder where there is none. Throws BadInput when it cannot.
+void PrepareFolder(const std::string& path);
+// Draws the CSV files in a folder by tools/bench/plot.py. Throws BadInput where Python or
+// matplotlib is missing: the CSV files are there all the same.
+void PlotFigures(const std::string& directory);
+// On a terminal's standard error.
+void ShowProgress(double fraction);
+
 // What can be timed: one subcommand of `bench` a file.
 void AddBenchConvex(CLI::App& bench, int& exit_code);
+void AddBenchFigures(CLI::App& bench, int& exit_code);
 void AddBenchSupport(CLI::App& bench, int& exit_code);
 
 }  // namespace touchstone

@@ -14,6 +14,7 @@
 #include "touchstone/tools/bench/convex_bench.h"
 #include "touchstone/tools/bench/convex_profile.h"
 #include "touchstone/tools/bench/convex_report.h"
+#include "touchstone/tools/bench/figures.h"
 #include "touchstone/tools/bench/machine.h"
 #include "touchstone/tools/bench/other_program.h"
 #include "touchstone/tools/bench/targets.h"
@@ -34,7 +35,7 @@ struct ConvexArguments {
   int orientations = 0, repeats = 0, pairs = 0, motions = 0;
   double seconds_per_row = 1.0;
   std::uint64_t seed = 1;
-  std::string meshes, csv, markdown;
+  std::string meshes, csv, svg, markdown;
   bool quick = false, profile = false, json = false;
 };
 
@@ -132,10 +133,6 @@ ConvexBenchOptions MakeOptions(const ConvexArguments& arguments) {
   return options;
 }
 
-void ShowProgress(double fraction) {
-  std::cerr << "\r" << static_cast<int>(100.0 * fraction) << "% " << std::flush;
-}
-
 std::ofstream OpenForWriting(const std::string& path) {
   std::ofstream file(path);
   if (!file) throw BadInput{path + " cannot be written"};
@@ -181,6 +178,7 @@ int RunConvexCommand(const ConvexArguments& arguments) {
     summary = OpenForWriting(arguments.markdown + "/bench-summary.md");
     targets_file = OpenForWriting(arguments.markdown + "/bench-targets.md");
   }
+  if (!arguments.svg.empty()) PrepareFolder(arguments.svg);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const std::function<void(double)> report =
       terminal ? std::function<void(double)>(ShowProgress) : nullptr;
@@ -195,6 +193,11 @@ int RunConvexCommand(const ConvexArguments& arguments) {
   const std::vector<Target> targets = CompareWithTargets(
       rows, profile ? &*profile : nullptr, instruction_sets ? &*instruction_sets : nullptr);
   if (csv.is_open()) WriteConvexBenchCsv(csv, rows);
+  if (!arguments.svg.empty()) {
+    if (!WriteTimeFigures(arguments.svg, rows))
+      throw BadInput{arguments.svg + " cannot be written"};
+    PlotFigures(arguments.svg);
+  }
   if (tables.is_open()) {
     PrintConvexBench(tables, rows, TableStyle::kMarkdown);
     PrintSummary(summary, rows, TableStyle::kMarkdown);
@@ -249,6 +252,8 @@ void AddBenchConvex(CLI::App& bench, int& exit_code) {
       ->capture_default_str();
   command->add_option("--meshes", arguments->meshes, "folder of meshes for the shape of that name");
   command->add_option("--csv", arguments->csv, "write the rows to this file, too");
+  command->add_option("--svg", arguments->svg,
+                      "folder for plots of time against the gap, by n and by shape (Figures 8, 9)");
   command->add_option("--markdown", arguments->markdown,
                       "folder for the tables: bench-convex.md, bench-summary.md, bench-targets.md");
   command->add_flag("--profile", arguments->profile,
