@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "touchstone/core/cd_dual/cd_dual.h"
+#include "touchstone/core/proximity/penetration_depth.h"
 #include "touchstone/tools/bench/workload.h"
 
 namespace touchstone {
@@ -92,6 +93,30 @@ BodyCost MeasureBody(const std::string& shape, int n, std::uint64_t seed, HeapMe
   return cost;
 }
 
+DepthCost MeasureDepth(int n, double gap, std::uint64_t seed, double clock_ns) {
+  constexpr int kMotions = 12, kFrames = 32;
+  const Workload workload = MakeWarmWorkload({"ellipsoid-2", n, seed, ""}, kMotions, kFrames, 0.1);
+  PenetrationCache cold_cache, warm_cache;
+  const auto time = [&](const BenchLine& line, PenetrationCache* cache) {
+    const RelativePose pose = PoseAtTravel(line.line, gap);
+    const Clock::time_point start = Clock::now();
+    sink = static_cast<int>(
+        PenetrationDepth(workload.bodies[line.p], workload.bodies[line.q], pose, {}, cache)
+            .verdict);
+    return NsSince(start) - clock_ns;
+  };
+  std::vector<double> cold, warm;
+  for (std::size_t i = 0; i < workload.lines.size(); ++i) {
+    const bool first = i % kFrames == 0;
+    if (first) warm_cache.Clear();
+    const double ns = time(workload.lines[i], &warm_cache);
+    if (!first) warm.push_back(ns);
+    cold_cache.Clear();
+    cold.push_back(time(workload.lines[i], &cold_cache));
+  }
+  return {n, gap, Quantile(cold, 0.5), Quantile(warm, 0.5)};
+}
+
 }  // namespace
 
 ConvexProfile RunConvexProfile(const ConvexProfileOptions& options,
@@ -115,6 +140,8 @@ ConvexProfile RunConvexProfile(const ConvexProfileOptions& options,
     for (const char* shape : {"ellipsoid-2", "prism", "grid"})
       profile.bodies.push_back(MeasureBody(shape, n, options.seed, options.heap));
   }
+  for (const double gap : {-50.0, -5.0, -1e-6})
+    profile.depths.push_back(MeasureDepth(100, gap, options.seed, clock_ns));
   return profile;
 }
 

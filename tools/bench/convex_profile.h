@@ -37,10 +37,19 @@ struct BodyCost {
   double build_us_per_vertex = 0.0;
 };
 
+// Exact penetration depth of an overlapping pair: cold with memory at hand but nothing known, and
+// in coherent motion by 0.1 degrees a frame.
+struct DepthCost {
+  int n = 0;
+  double gap = 0.0;
+  double cold_ns = 0.0, warm_ns = 0.0;  // medians
+};
+
 struct ConvexProfile {
   std::vector<ColdTail> tails;
   std::vector<TierCounts> tiers;
   std::vector<BodyCost> bodies;
+  std::vector<DepthCost> depths;
   // Queries that took memory from the heap, of those in `tiers`, by tier; -1 without a heap meter.
   long allocating_in_doubles = -1;
   long allocating_in_exact = -1;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/tools/bench/figures.h"
 
-#include <array>
+#include <algorithm>
 #include <fstream>
+#include <string_view>
+#include <utility>
 
 #include "touchstone/tools/bench/convex_report.h"
 #include "touchstone/tools/bench/phase_bench.h"
+#include "touchstone/tools/bench/value_bench.h"
 #include "touchstone/tools/numbers.h"
 
 namespace touchstone {
@@ -108,6 +111,26 @@ bool MakeErrorFigure(const FiguresOptions& options, const std::function<void(dou
   return out.good();
 }
 
+bool MakeValueFigure(const FiguresOptions& options, const std::function<void(double)>& report) {
+  ValueBenchOptions values;
+  values.engines = options.engines;
+  values.n = kErrorVertices;
+  values.sizes = {1e-9, 1e-6, 1e-3, 1.0, 20.0};
+  values.orientations = std::min(options.orientations, 100);
+  values.seed = options.seed;
+  std::ofstream out(options.directory + "/error-values.csv");
+  out << "engine,tolerance,quantity,shape,n,gap,median_ns,queries,absent,not_finite,median_error,"
+         "greatest_error\n";
+  for (const ValueBenchRow& row : RunValueBench(values, report)) {
+    out << row.engine << ',' << (row.has_tolerance ? ShortDouble(row.tolerance) : "") << ','
+        << ToString(row.quantity) << ',' << values.shape << ',' << values.n << ','
+        << ShortDouble(row.gap) << ',' << ShortDouble(row.median_ns) << ',' << row.queries << ','
+        << row.absent << ',' << row.not_finite << ',' << ShortDouble(row.median_error) << ','
+        << ShortDouble(row.greatest_error) << '\n';
+  }
+  return out.good();
+}
+
 }  // namespace
 
 bool WriteTimeFigures(const std::string& directory, std::span<const ConvexBenchRow> rows) {
@@ -123,7 +146,7 @@ bool WriteTimeFigures(const std::string& directory, std::span<const ConvexBenchR
 
 bool MakeFigures(const FiguresOptions& options, const std::function<void(double)>& report) {
   return MakeTimeFigures(options, report) && MakePhaseFigure(options) &&
-         MakeErrorFigure(options, report);
+         MakeErrorFigure(options, report) && MakeValueFigure(options, report);
 }
 
 }  // namespace touchstone

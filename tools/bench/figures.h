@@ -29,7 +29,8 @@ bool WriteTimeFigures(const std::string& directory, std::span<const ConvexBenchR
 
 // Measures and writes figure8.csv, figure9.csv, figure10.csv (the published search by stage) and
 // error-verdicts.csv (every engine at each of its tolerances, n = 100, from contact outward, bodies
-// in general position and exactly parallel). Returns whether all could be written.
+// in general position and exactly parallel) and error-values.csv (exit travel, distance and depth
+// against the exact ones). Returns whether all could be written.
 bool MakeFigures(const FiguresOptions& options, const std::function<void(double)>& report);
 
 }  // namespace touchstone

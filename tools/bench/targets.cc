@@ -139,6 +139,14 @@ class Comparison {
           profile_->allocating_in_doubles + profile_->allocating_in_exact == 0);
     }
     Tiers();
+    for (const DepthCost& depth : profile_->depths) {
+      Add("exact penetration depth, n = " + std::to_string(depth.n) + ", gap " +
+              ShortDouble(depth.gap),
+          "<= 10 µs cold, <= 3 µs warm",
+          Fixed(depth.cold_ns / 1000.0, 1) + " µs cold, " + Fixed(depth.warm_ns / 1000.0, 1) +
+              " µs warm",
+          depth.cold_ns <= 10000.0 && depth.warm_ns <= 3000.0);
+    }
   }
 
   // By n, at the gap where it is worst.

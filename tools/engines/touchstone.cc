@@ -2,6 +2,8 @@
 //
 // Our own searches, asked for the verdict alone.
 #include "touchstone/core/cd_dual/cd_dual.h"
+#include "touchstone/core/proximity/distance.h"
+#include "touchstone/core/proximity/penetration_depth.h"
 #include "touchstone/tools/engines/own_copy.h"
 #include "touchstone/tools/engines/registry.h"
 
@@ -32,8 +34,9 @@ class Pair : public EnginePair {
       case Quantity::kExitTravel:
         return ExitTravel();
       case Quantity::kDistance:
+        return MeasuredDistance();
       case Quantity::kDepth:
-        return std::nullopt;
+        return MeasuredDepth();
     }
     return std::nullopt;
   }
@@ -45,6 +48,23 @@ class Pair : public EnginePair {
     const CollideResult result = Collide(p_.body, q_.body, pose_, options);
     if (!result.exit_travel) return std::nullopt;
     return EngineValue{result.exit_travel->value, result.interior_p, result.interior_q};
+  }
+
+  // Distance and depth are queries of their own, listed with the default search.
+  std::optional<EngineValue> MeasuredDistance() const {
+    if (options_.search != Search::kPortal) return std::nullopt;
+    const DistanceResult result =
+        Distance(p_.body, q_.body, pose_, {.certainty = options_.certainty});
+    if (result.kind != DistanceKind::kSeparate) return std::nullopt;
+    return EngineValue{result.distance.value};
+  }
+
+  std::optional<EngineValue> MeasuredDepth() const {
+    if (options_.search != Search::kPortal) return std::nullopt;
+    const PenetrationResult result =
+        PenetrationDepth(p_.body, q_.body, pose_, {.certainty = options_.certainty});
+    if (result.verdict != Verdict::kOverlap) return std::nullopt;
+    return EngineValue{result.depth.value};
   }
 
   const Shape& p_;
