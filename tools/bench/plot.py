@@ -20,7 +20,9 @@ matplotlib.use("svg")
 matplotlib.rcParams["svg.hashsalt"] = "touchstone"  # the same file for the same numbers
 matplotlib.rcParams["svg.fonttype"] = "none"  # text stays text: smaller, and searchable
 matplotlib.rcParams["font.family"] = ["DejaVu Sans", "sans-serif"]
+import matplotlib.lines  # noqa: E402
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 
 # Ours in one colour family and thick, others apart; the same everywhere.
 STYLES = {
@@ -36,7 +38,6 @@ STYLES = {
     "fcl-libccd": ("#9467bd", "-", "p", 1.2),
     "fcl-own": ("#c5b0d5", ":", "h", 1.2),
     "bullet-f64": ("#7f7f7f", "-.", "*", 1.2),
-    "proximity": ("#d62728", "-", "o", 2.4),
 }
 
 
@@ -224,38 +225,56 @@ def error_gaps(directory):
     save(figure, directory, "error-gaps.svg")
 
 
+def whole_decades(low, high):
+    return 10.0 ** math.floor(math.log10(low)), 10.0 ** math.ceil(math.log10(high))
+
+
 def error_values(directory):
-    rows = read(directory, "error-values.csv")
+    rows = [row for row in read(directory, "error-values.csv") if row["median_error"]]
     if not rows:
         return
     quantities = list(dict.fromkeys(row["quantity"] for row in rows))
-    figure, axes = plt.subplots(1, len(quantities), sharey=True, squeeze=False,
-                                figsize=(4.2 * len(quantities) + 0.5, 5.4))
+    sizes = sorted({abs(float(row["gap"])) for row in rows})
+    figure, axes = plt.subplots(len(sizes), len(quantities), sharex="col", sharey="row",
+                                squeeze=False,
+                                figsize=(4.0 * len(quantities) + 0.6, 2.3 * len(sizes) + 1.1))
     handles = {}
-    for axis, quantity in zip(axes[0], quantities):
-        curves = collections.defaultdict(list)
-        for row in rows:
-            if row["quantity"] == quantity and row["median_error"]:
-                curves[row["engine"]].append(row)
-        for engine, points in curves.items():
-            colour, _, marker, _ = style(engine)
-            for row in points:
-                time = float(row["median_ns"])
+    for line, size in enumerate(sizes):
+        for column, quantity in enumerate(quantities):
+            axis = axes[line][column]
+            for row in rows:
+                if row["quantity"] != quantity or abs(float(row["gap"])) != size:
+                    continue
+                engine, time = row["engine"], float(row["median_ns"])
+                colour, _, marker, _ = style(engine)
                 low = max(float(row["median_error"]), 1e-17)
                 high = max(float(row["greatest_error"]), 1e-17)
                 axis.plot([time, time], [low, high], "-", color=colour, linewidth=0.8, alpha=0.6)
                 axis.plot([time], [high], "_", color=colour, markersize=6)
-                handles[engine] = axis.scatter(time, low, marker=marker, color=colour, s=26,
-                                               zorder=3)
-        axis.set_xscale("log")
-        axis.set_yscale("log")
-        axis.grid(True, which="major", color="#dddddd", linewidth=0.5)
-        axis.set_title(quantity.replace("exit_travel", "exit travel α"), fontsize=10)
-        axis.set_xlabel("ns a query", fontsize=8)
-    axes[0][0].set_ylabel("error relative to the exact value: median to greatest", fontsize=8)
-    figure.suptitle("Time against error of what engines report, each tolerance and gap a mark",
-                    fontsize=11)
-    figure.tight_layout(rect=(0, 0.14, 1, 1))
+                axis.scatter(time, low, marker=marker, color=colour, zorder=3,
+                             s=60 if engine == "portal" else 24)
+                handles[engine] = matplotlib.lines.Line2D([], [], linestyle="", color=colour,
+                                                          marker=marker, markersize=6)
+            # Half a unit in the last place of the bodies' size, over the value.
+            axis.axhline(200 * 2.0**-53 / size, color="black", linewidth=0.7, linestyle=":")
+            axis.set_xscale("log")
+            axis.set_yscale("log")
+            axis.grid(True, which="major", color="#dddddd", linewidth=0.5)
+            axis.tick_params(labelsize=7, which="both")
+            axis.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+            if line == 0:
+                axis.set_title(quantity.replace("exit_travel", "exit travel α"), fontsize=10)
+            if line == len(sizes) - 1:
+                axis.set_xlabel("ns a query", fontsize=8)
+            if column == 0:
+                axis.set_ylabel(f"|ℓ| = {size:g}\nrelative error", fontsize=8)
+    for axis in axes[0]:
+        axis.set_xlim(*whole_decades(*axis.get_xlim()))
+    for axis in axes[:, 0]:
+        axis.set_ylim(*whole_decades(*axis.get_ylim()))
+    figure.suptitle("Time against error of what engines report, each tolerance a mark: median, and "
+                    "a bar up to the greatest\n(dotted: one rounding of a coordinate)", fontsize=10)
+    figure.tight_layout(rect=(0, 0.6 / figure.get_figheight(), 1, 1))
     legend_below(figure, handles.values(), handles.keys(), 6)
     save(figure, directory, "error-values.svg")
 

@@ -22,11 +22,11 @@ struct Cache : EngineCache {
 class Pair : public EnginePair {
  public:
   Pair(const Shape& p, const Shape& q, const RelativePose& pose, const CollideOptions& options)
-      : p_(p), q_(q), pose_(pose), options_(options) {}
+      : p_(p.body), q_(q.body), pose_(pose), options_(options) {}
 
   Verdict Ask(EngineCache* cache) const override {
     CollideCache* last = cache == nullptr ? nullptr : &static_cast<Cache*>(cache)->cache;
-    return Collide(p_.body, q_.body, pose_, options_, last).verdict;
+    return Collide(p_, q_, pose_, options_, last).verdict;
   }
 
   std::optional<EngineValue> Measure(Quantity quantity) const override {
@@ -45,7 +45,7 @@ class Pair : public EnginePair {
   std::optional<EngineValue> ExitTravel() const {
     CollideOptions options = options_;
     options.early_exit = false;
-    const CollideResult result = Collide(p_.body, q_.body, pose_, options);
+    const CollideResult result = Collide(p_, q_, pose_, options);
     if (!result.exit_travel) return std::nullopt;
     return EngineValue{result.exit_travel->value, result.interior_p, result.interior_q};
   }
@@ -53,8 +53,7 @@ class Pair : public EnginePair {
   // Distance and depth are queries of their own, listed with the default search.
   std::optional<EngineValue> MeasuredDistance() const {
     if (options_.search != Search::kPortal) return std::nullopt;
-    const DistanceResult result =
-        Distance(p_.body, q_.body, pose_, {.certainty = options_.certainty});
+    const DistanceResult result = Distance(p_, q_, pose_, {.certainty = options_.certainty});
     if (result.kind != DistanceKind::kSeparate) return std::nullopt;
     return EngineValue{result.distance.value};
   }
@@ -62,13 +61,13 @@ class Pair : public EnginePair {
   std::optional<EngineValue> MeasuredDepth() const {
     if (options_.search != Search::kPortal) return std::nullopt;
     const PenetrationResult result =
-        PenetrationDepth(p_.body, q_.body, pose_, {.certainty = options_.certainty});
+        PenetrationDepth(p_, q_, pose_, {.certainty = options_.certainty});
     if (result.verdict != Verdict::kOverlap) return std::nullopt;
     return EngineValue{result.depth.value};
   }
 
-  const Shape& p_;
-  const Shape& q_;
+  // Handles, as a user holds them; the bodies' data is the shapes'.
+  ConvexPolyhedron p_, q_;
   RelativePose pose_;
   const CollideOptions& options_;
 };
