@@ -179,9 +179,9 @@ void RunWarm(std::vector<Lane>& lanes, std::size_t count, std::size_t frames) {
       for (std::size_t e = 0; e < lanes.size(); ++e) {
         if (lanes[e].answers.size() <= begin) continue;
         const std::unique_ptr<EngineCache> cache = lanes[e].MakeCache();
-        const std::size_t timed = begin + frames / 4;
-        lanes[e].Time(begin, timed, 1, cache.get());
-        turns[e][t] = lanes[e].Time(timed, begin + frames, 1, cache.get());
+        for (std::size_t i = begin + frames; i > begin; --i)
+          lanes[e].pairs[i - 1]->Ask(cache.get());
+        turns[e][t] = lanes[e].Time(begin + 1, begin + frames, 1, cache.get());
       }
     }
     for (std::size_t e = 0; e < lanes.size(); ++e) {

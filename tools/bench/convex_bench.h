@@ -38,7 +38,7 @@ struct ConvexBenchOptions {
   // cache of 32 MB holds. Four times as many change nothing.
   int mixed_vertices = 1 << 16;
   int motions = 24;  // kWarm
-  int frames = 128;
+  int frames = 64;
   // An engine that has taken so long for one gap of a cell is asked no more there: its row then
   // counts fewer queries.
   double seconds_per_row = 2.0;

@@ -5,7 +5,6 @@
 #include <ccd/ccd.h>
 #include <ccd/vec3.h>
 
-#include <array>
 #include <limits>
 
 #include "touchstone/core/convex/support.h"
@@ -28,16 +27,14 @@ enum class Algorithm { kGjk, kMpr };
 
 struct ScannedBody {
   explicit ScannedBody(const ConvexPolyhedron& b) : body(OwnCopy(b)), scan(b) {}
-  int Find(const Eigen::Vector3d& direction, int /*start*/) const { return scan.Find(direction); }
+  int Find(const Eigen::Vector3d& direction) const { return scan.Find(direction); }
   ConvexPolyhedron body;
   ScanSupport scan;
 };
 
 struct ClimbedBody {
   explicit ClimbedBody(const ConvexPolyhedron& b) : body(OwnCopy(b)) {}
-  int Find(const Eigen::Vector3d& direction, int start) const {
-    return SupportVertex(body, direction, start);
-  }
+  int Find(const Eigen::Vector3d& direction) const { return SupportVertex(body, direction); }
   ConvexPolyhedron body;
 };
 
@@ -52,17 +49,11 @@ struct Shape : EngineShape {
   Eigen::Vector3d center;
 };
 
-// The last vertices of P and Q that supported; climbs begin there.
-struct Cache : EngineCache {
-  std::array<int, 2> last = {-1, -1};
-};
-
 // What libccd passes to the callbacks: one body, for one query.
 template <class Body>
 struct Object {
   const Shape<Body>* shape;
   const RelativePose* pose;  // null: the body is in the frame of the query
-  int start = -1;
   int support_calls = 0;
 
   bool exhausted() const { return support_calls > kMaxSupportPairs; }
@@ -83,14 +74,11 @@ void Support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point)
   const Eigen::Vector3d n(direction->v[0], direction->v[1], direction->v[2]);
   const Body& body = self.shape->body;
   if (self.pose == nullptr) {
-    const int vertex = body.Find(n, self.start);
-    if (self.start >= 0) self.start = vertex;
-    *point = ToCcd(body.body.vertex(vertex));
+    *point = ToCcd(body.body.vertex(body.Find(n)));
     return;
   }
   const Eigen::Matrix3d& r = self.pose->rotation();
-  const int vertex = body.Find(r.transpose() * n, self.start);
-  if (self.start >= 0) self.start = vertex;
+  const int vertex = body.Find(r.transpose() * n);
   *point = ToCcd(r * body.body.vertex(vertex) + self.pose->translation());
 }
 
@@ -109,18 +97,11 @@ class Pair : public EnginePair {
   Pair(const Shape<Body>& p, const Shape<Body>& q, const RelativePose& pose, const ccd_t& ccd)
       : p_(p), q_(q), pose_(pose), ccd_(ccd) {}
 
-  Verdict Ask(EngineCache* cache) const override {
+  Verdict Ask(EngineCache* /*cache*/) const override {
     Object<Body> p{&p_, nullptr};
     Object<Body> q{&q_, &pose_};
-    auto* last = static_cast<Cache*>(cache);
-    if (last != nullptr) {
-      // A climb needs a vertex to begin at; the first frame takes any.
-      p.start = last->last[0] < 0 ? 0 : last->last[0];
-      q.start = last->last[1] < 0 ? 0 : last->last[1];
-    }
     const int meets = kAlgorithm == Algorithm::kGjk ? ccdGJKIntersect(&p, &q, &ccd_)
                                                     : ccdMPRIntersect(&p, &q, &ccd_);
-    if (last != nullptr) last->last = {p.start, q.start};
     if (p.exhausted() || q.exhausted()) return Verdict::kUndecided;
     return meets != 0 ? Verdict::kOverlap : Verdict::kSeparate;
   }
@@ -168,10 +149,6 @@ class LibccdEngine : public Engine {
                                     const RelativePose& pose) const override {
     return std::make_unique<Pair<Body, kAlgorithm>>(static_cast<const Shape<Body>&>(p),
                                                     static_cast<const Shape<Body>&>(q), pose, ccd_);
-  }
-  std::unique_ptr<EngineCache> MakeCache() const override {
-    if constexpr (std::is_same_v<Body, ClimbedBody>) return std::make_unique<Cache>();
-    return nullptr;
   }
 
  private:
