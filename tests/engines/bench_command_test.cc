@@ -48,7 +48,7 @@ TEST(BenchConvex, JsonIsAnArrayOfRowsWithTheKeysOfTheContract) {
   EXPECT_EQ(gaps, (std::set<double>{-5.0, -1e-6, 1e-6, 5.0}));
   std::set<std::string> available;
   for (const EngineDescription& engine : AllEngines()) {
-    if (engine.unavailable.empty()) available.insert(engine.name);
+    if (engine.unavailable.empty() && !engine.single_precision) available.insert(engine.name);
   }
   EXPECT_EQ(engines, available);
   EXPECT_EQ(json.size(), engines.size() * modes.size() * gaps.size());
@@ -97,6 +97,48 @@ TEST(BenchConvex, BadUsageIsOneLineAndCodeTwo) {
   refused("--gaps nan", "finite");
   refused("--repeats -1", "not negative");
   refused("--csv /nonexistent/rows.csv", "cannot be written");
+}
+
+TEST(BenchSupport, JsonHasEveryMethodAndOnlyTheLookMayBeLower) {
+  const ProgramRun run = RunProgram("bench support --quick --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::set<std::string> methods;
+  for (const nlohmann::json& row : run.json()) {
+    const std::string method = row["method"].get<std::string>();
+    methods.insert(method);
+    EXPECT_GT(row["independent_ns"].get<double>(), 0.0);
+    EXPECT_GT(row["dependent_ns"].get<double>(), 0.0);
+    if (method != "table, one look") {
+      EXPECT_EQ(row["lower"], 0.0) << method;
+    }
+  }
+  EXPECT_EQ(methods.size(), 7u);
+}
+
+TEST(BenchFigures, WritesTheNumbersOfEveryFigure) {
+  const TemporaryFolder folder("figures");
+  const ProgramRun run = RunProgram(
+      "bench figures --quick --orientations 2 --engines portal,enhanced-gjk " + folder.path("out"));
+  // Without matplotlib the numbers are there all the same.
+  if (run.exit_code != 0) {
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr("matplotlib"));
+  }
+  const auto starts = [&](const std::string& file, const std::string& head) {
+    EXPECT_THAT(folder.Read("out/" + file), testing::StartsWith(head)) << file;
+  };
+  starts("figure8.csv", "engine,shape,n,gap,mode,median_ns,");
+  starts("figure9.csv", "engine,shape,n,gap,mode,median_ns,");
+  starts("figure10.csv", "n,gap,set-up,first-face,SEARCH-FV,SEARCH-VF,SEARCH-EE\n1000,-100,");
+  starts("error-verdicts.csv",
+         "engine,tolerance,is_best,shape,n,gap,median_ns,queries,wrong,undecided\nportal,,1,");
+  starts("error-values.csv", "engine,tolerance,quantity,");
+  if (run.exit_code == 0) {
+    for (const std::string name :
+         {"figure8", "figure9", "figure10", "error-verdicts", "error-gaps", "error-values"}) {
+      EXPECT_THAT(folder.Read("out/" + name + ".svg"), HasSubstr("</svg>")) << name;
+    }
+  }
 }
 
 TEST(EnginesCommand, ListsEveryEngine) {

@@ -157,6 +157,24 @@ TEST(Engines, MeasureKnownDistancesAndDepths) {
   EXPECT_GE(distances, 1);  // enhanced GJK at least
 }
 
+// The two flavours of one library have the same names for different functions.
+TEST(Engines, FlavoursOfBulletLiveInOneProcess) {
+  const ConvexPolyhedron p = BoxBody({4, 1, 1});
+  const ConvexPolyhedron q = BoxBody({2, 2, 2});
+  const RelativePose pose = Pose(Matrix3d::Identity(), {0, 5 + 1e-9, 0.25});
+  for (const EngineDescription& description : AvailableEngines()) {
+    if (!description.name.starts_with("bullet")) continue;
+    const std::unique_ptr<Engine> engine = description.make(0.0);
+    const double distance = Placed(*engine, p, q, pose).pair->Measure(Quantity::kDistance)->value;
+    const double error = std::fabs(distance - (2 + 1e-9));
+    if (description.single_precision) {
+      EXPECT_GT(error, 1e-10);  // half a unit in the last place of a float at 5 is 2.4e-7
+    } else {
+      EXPECT_LT(error, 1e-12);
+    }
+  }
+}
+
 TEST(IsWrong, HonoursTheConventionForTouch) {
   using Touch = TouchConvention;
   EXPECT_FALSE(IsWrong(Touch::kThreeWay, Verdict::kTouch, Verdict::kTouch));

@@ -95,6 +95,8 @@ struct EngineDescription {
   double best_tolerance = 0.0;
   // Whether a wrong verdict is a bug of this project.
   bool proven = false;
+  // Inputs are rounded to float: what it is asked is the question only where floats hold it.
+  bool single_precision = false;
   // Why the engine cannot run (a package missing at configuration), or empty.
   std::string unavailable;
   std::unique_ptr<Engine> (*make)(double tolerance) = nullptr;

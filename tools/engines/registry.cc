@@ -35,6 +35,11 @@ std::vector<EngineDescription> AllEngines() {
 #else
   DescribeMissing(engines, "bullet-f64", "libbullet-dev");
 #endif
+#ifdef TOUCHSTONE_HAS_BULLET_F32
+  DescribeBulletF32(engines);
+#else
+  DescribeMissing(engines, "bullet-f32", "libbullet-dev");
+#endif
   return engines;
 }
 

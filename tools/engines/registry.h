@@ -18,6 +18,7 @@ void DescribeEnhancedGjk(std::vector<EngineDescription>& engines);
 void DescribeLibccd(std::vector<EngineDescription>& engines);
 void DescribeFcl(std::vector<EngineDescription>& engines);
 void DescribeBulletF64(std::vector<EngineDescription>& engines);
+void DescribeBulletF32(std::vector<EngineDescription>& engines);
 
 }  // namespace touchstone
 

@@ -10,7 +10,7 @@
 
 namespace touchstone {
 
-// The engines of these names, or all that can run; says on stderr which cannot. Throws BadInput for
+// The engines of these names, or all in double precision that can run; says on stderr which cannot. Throws BadInput for
 // a name that there is not, or that cannot run.
 std::vector<EngineDescription> SelectEngines(const std::vector<std::string>& names);
 

@@ -243,8 +243,7 @@ void AddBenchConvex(CLI::App& bench, int& exit_code) {
   command->add_option("--repeats", arguments->repeats, "of each query; 300, quick 60");
   command->add_option("--pairs", arguments->pairs,
                       "of mode mixed, in batches of 32; 2048, quick 512");
-  command->add_option("--motions", arguments->motions,
-                      "of mode warm, 64 frames each; 24, quick 6");
+  command->add_option("--motions", arguments->motions, "of mode warm, 64 frames each; 24, quick 6");
   command
       ->add_option("--seconds-per-row", arguments->seconds_per_row,
                    "an engine slower than that is asked fewer queries; quick 0.2")

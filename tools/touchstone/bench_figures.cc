@@ -19,6 +19,7 @@ struct FiguresArguments {
   std::string directory;
   std::vector<std::string> engines;
   bool quick = false;
+  int orientations = 0;
   std::uint64_t seed = 1;
 };
 
@@ -32,6 +33,9 @@ int RunFiguresCommand(const FiguresArguments& arguments) {
     options.repeats = 15;
     options.seconds_per_row = 0.1;
   }
+  if (arguments.orientations < 0)
+    throw BadInput{"--orientations: takes a number that is not negative"};
+  if (arguments.orientations > 0) options.orientations = arguments.orientations;
   PrepareFolder(arguments.directory);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (!MakeFigures(options, terminal ? ShowProgress : nullptr))
@@ -50,6 +54,7 @@ void AddBenchFigures(CLI::App& bench, int& exit_code) {
   command->add_option("--engines", arguments->engines, "names, separated by commas; all")
       ->delimiter(',');
   command->add_flag("--quick", arguments->quick, "20 orientations: the shape of things");
+  command->add_option("--orientations", arguments->orientations, "500, quick 20");
   command->add_option("--seed", arguments->seed, "which stream of bodies and placements")
       ->capture_default_str();
   command->callback([arguments, &exit_code] { exit_code = RunFiguresCommand(*arguments); });
