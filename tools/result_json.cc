@@ -6,7 +6,6 @@
 #include "touchstone/tools/numbers.h"
 
 namespace touchstone {
-namespace {
 
 Json ToJson(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
@@ -42,25 +41,6 @@ Json ToJson(const Certificate& certificate) {
   return json;
 }
 
-Json ToJson(const PhaseReport& report) {
-  Json json = {{"claim", ToString(report.claim)}};
-  if (report.face_class) {
-    json["class"] = ToString(*report.face_class);
-    json["feature_p"] = ToJson(report.feature_p);
-    json["feature_q"] = ToJson(report.feature_q);
-    json["signed_distance"] = report.signed_distance;
-  }
-  return json;
-}
-
-Json ToJson(const TraceStep& step) {
-  return {{"phase", ToString(step.phase)},           {"class", ToString(step.face_class)},
-          {"feature_p", ToJson(step.feature_p)},     {"feature_q", ToJson(step.feature_q)},
-          {"signed_distance", step.signed_distance}, {"accepted", step.accepted}};
-}
-
-constexpr std::array kSearchPhases = {Phase::kFaceVertex, Phase::kVertexFace, Phase::kEdgeEdge};
-
 std::string Text(const Feature& feature) {
   return std::string(ToString(feature.kind)) + " " + std::to_string(feature.index);
 }
@@ -92,6 +72,27 @@ void PrintCertificate(std::ostream& out, const Certificate& certificate) {
   }
   out << "\n";
 }
+
+namespace {
+
+Json ToJson(const PhaseReport& report) {
+  Json json = {{"claim", ToString(report.claim)}};
+  if (report.face_class) {
+    json["class"] = ToString(*report.face_class);
+    json["feature_p"] = ToJson(report.feature_p);
+    json["feature_q"] = ToJson(report.feature_q);
+    json["signed_distance"] = report.signed_distance;
+  }
+  return json;
+}
+
+Json ToJson(const TraceStep& step) {
+  return {{"phase", ToString(step.phase)},           {"class", ToString(step.face_class)},
+          {"feature_p", ToJson(step.feature_p)},     {"feature_q", ToJson(step.feature_q)},
+          {"signed_distance", step.signed_distance}, {"accepted", step.accepted}};
+}
+
+constexpr std::array kSearchPhases = {Phase::kFaceVertex, Phase::kVertexFace, Phase::kEdgeEdge};
 
 void PrintTrace(std::ostream& out, const std::vector<TraceStep>& trace) {
   if (trace.empty()) return;

@@ -5,38 +5,21 @@
 #include <vector>
 
 #include "touchstone/tools/judged_query.h"
-#include "touchstone/tools/mesh_arguments.h"
-#include "touchstone/tools/mesh_io.h"
-#include "touchstone/tools/numbers.h"
 #include "touchstone/tools/result_json.h"
+#include "touchstone/tools/touchstone/body_arguments.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 
 namespace touchstone {
 namespace {
 
-struct Arguments {
-  std::string p, q;
-  std::vector<std::string> pose;
+struct Arguments : BodyArguments {
   std::string search = "portal";
-  std::string certainty = "exact";
-  bool early_exit = false, common_point = false, judge = false, hull = false, trace = false,
-       json = false;
+  bool early_exit = false, common_point = false, trace = false;
 };
-
-ConvexPolyhedron Load(const std::string& path, bool hull) {
-  Loaded<ConvexPolyhedron> body = ReadBody(path, hull);
-  if (!body.ok()) throw BadInput{body.error()};
-  return *body;
-}
 
 void PrintJudgement(const Arguments& arguments, const JudgedQuery& query, bool constructed) {
   if (!arguments.judge) return;
-  if (query.findings.empty()) {
-    std::cout << "judge            no findings" << (constructed ? "; M was built whole, too" : "")
-              << '\n';
-  }
-  for (const NamedFinding& finding : query.findings)
-    std::cout << "judge            " << finding.kind << ": " << finding.detail << '\n';
+  PrintFindings(std::cout, query.findings, constructed);
   for (const NamedFinding& finding : query.rounding_findings) {
     std::cout << "judge            in doubles only: " << finding.kind << ": " << finding.detail
               << '\n';
@@ -44,8 +27,7 @@ void PrintJudgement(const Arguments& arguments, const JudgedQuery& query, bool c
 }
 
 int RunCollide(const Arguments& arguments) {
-  const PlacedPair pair{Load(arguments.p, arguments.hull), Load(arguments.q, arguments.hull),
-                        ParsePose(arguments.pose)};
+  const PlacedPair pair = LoadPair(arguments);
   const CollideOptions options{.search = ParseSearch(arguments.search),
                                .certainty = ParseCertainty(arguments.certainty),
                                .early_exit = arguments.early_exit,
@@ -58,17 +40,10 @@ int RunCollide(const Arguments& arguments) {
   query = arguments.judge ? AskAndJudge(pair, options, depth, bodies) : Ask(pair, options);
 
   if (arguments.json) {
-    Json json = {{"p",
-                  {{"file", arguments.p},
-                   {"vertices", pair.p.vertex_count()},
-                   {"faces", pair.p.face_count()}}},
-                 {"q",
-                  {{"file", arguments.q},
-                   {"vertices", pair.q.vertex_count()},
-                   {"faces", pair.q.face_count()}}},
-                 {"search", arguments.search},
-                 {"certainty", arguments.certainty},
-                 {"early_exit", arguments.early_exit}};
+    Json json = DescribeBodies(arguments, pair);
+    json["search"] = arguments.search;
+    json["certainty"] = arguments.certainty;
+    json["early_exit"] = arguments.early_exit;
     json.update(ToJson(query.result));
     json["search_ns"] = query.search_ns;
     if (arguments.judge) {
@@ -79,16 +54,11 @@ int RunCollide(const Arguments& arguments) {
     }
     std::cout << json.dump(2) << '\n';
   } else {
-    std::cout << "P                " << arguments.p << ": " << pair.p.vertex_count()
-              << " vertices, " << pair.p.face_count() << " faces\n"
-              << "Q                " << arguments.q << ": " << pair.q.vertex_count()
-              << " vertices, " << pair.q.face_count() << " faces\n"
-              << "search           " << arguments.search << ", " << arguments.certainty << '\n';
+    PrintBodies(std::cout, arguments, pair);
+    std::cout << "search           " << arguments.search << ", " << arguments.certainty << '\n';
     PrintResult(std::cout, query.result);
     PrintJudgement(arguments, query, depth.construct);
-    std::cout << "time             " << ShortDouble(query.search_ns) << " ns";
-    if (arguments.judge) std::cout << ", judge " << ShortDouble(query.judge_ns) << " ns";
-    std::cout << '\n';
+    PrintTimes(std::cout, query.search_ns, arguments.judge, query.judge_ns);
   }
   return query.findings.empty() ? kFine : kFindings;
 }
@@ -99,23 +69,14 @@ void AddCollide(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("collide", "Do two convex bodies meet? Prints the verdict and its proof");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("P", arguments->p, "mesh file of P: OFF, OBJ, STL or PLY")->required();
-  command->add_option("Q", arguments->q, "mesh file of Q")->required();
-  command
-      ->add_option("--pose", arguments->pose,
-                   "Q's placement relative to P: 12 numbers, row-major 3x4 [R | t]")
-      ->expected(1, -1);
+  AddBodyArguments(command, arguments.get());
   command->add_option("--search", arguments->search, "published, phased or portal")
       ->capture_default_str();
-  command->add_option("--certainty", arguments->certainty, "float or exact")->capture_default_str();
   command->add_flag("--common-point", arguments->common_point,
                     "Name a point of both bodies where they touch or overlap");
   command->add_flag("--early-exit", arguments->early_exit,
                     "stop as soon as the verdict is certain");
-  command->add_flag("--judge", arguments->judge, "check every part of the answer exactly");
-  command->add_flag("--hull", arguments->hull, "take the convex hulls of the meshes");
   command->add_flag("--trace", arguments->trace, "print the faces visited, by phase");
-  command->add_flag("--json", arguments->json, "print JSON");
   command->callback([arguments, &exit_code] { exit_code = RunCollide(*arguments); });
 }
 

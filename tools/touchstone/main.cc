@@ -27,6 +27,9 @@ int Run(int argc, char** argv) {
   app.footer("Exit code: 0 fine, 1 findings, 2 bad usage or bad data.");
   int exit_code = kFine;
   AddCollide(app, exit_code);
+  AddDistance(app, exit_code);
+  AddDepth(app, exit_code);
+  AddDirection(app, exit_code);
   AddVerify(app, exit_code);
   AddSuites(app, exit_code);
   AddReplay(app, exit_code);

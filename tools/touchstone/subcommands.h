@@ -22,6 +22,9 @@ enum ExitCode {
 // runs and leaves the exit code.
 void AddBench(CLI::App& app, int& exit_code);
 void AddCollide(CLI::App& app, int& exit_code);
+void AddDepth(CLI::App& app, int& exit_code);
+void AddDirection(CLI::App& app, int& exit_code);
+void AddDistance(CLI::App& app, int& exit_code);
 void AddEngines(CLI::App& app, int& exit_code);
 void AddMembership(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "touchstone/tools/numbers.h"
+#include "touchstone/tools/proximity_report.h"
+#include "touchstone/tools/proximity_run.h"
 #include "touchstone/tools/suites/registry.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 #include "touchstone/tools/verify_report.h"
@@ -26,7 +28,7 @@ struct Arguments {
   std::string meshes, cases;
   int threads = 0;
   std::string certainty = "exact", early_exit = "mixed", depth = "mixed";
-  bool coverage = false, json = false;
+  bool coverage = false, proximity = false, json = false;
 };
 
 constexpr std::uint64_t kDefaultCount = 1000;
@@ -116,8 +118,18 @@ int RunVerifyCommand(const Arguments& arguments) {
   options.suites = SelectSuites(arguments, all);
 
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  const std::vector<SuiteStats> stats =
-      RunVerify(options, terminal ? std::function<void(const Progress&)>(ShowProgress) : nullptr);
+  const auto show = terminal ? std::function<void(const Progress&)>(ShowProgress) : nullptr;
+  if (arguments.proximity) {
+    const std::vector<SuiteProximity> suites = RunProximity(options, show);
+    if (terminal) std::cerr << "\r\033[K";
+    if (arguments.json) {
+      std::cout << ProximityJson(options, suites).dump(2) << '\n';
+    } else {
+      PrintProximity(std::cout, suites);
+    }
+    return ProvenFindings(suites) == 0 ? kFine : kFindings;
+  }
+  const std::vector<SuiteStats> stats = RunVerify(options, show);
   if (terminal) std::cerr << "\r\033[K";
 
   if (arguments.json) {
@@ -159,6 +171,8 @@ void AddVerify(CLI::App& app, int& exit_code) {
   command->add_option("--cases", arguments->cases, "folder for the case files of failing queries");
   command->add_flag("--coverage", arguments->coverage,
                     "print the count of every combination of class, phase, verdict");
+  command->add_flag("--proximity", arguments->proximity,
+                    "ask distances, depths and travels instead of verdicts");
   command->add_flag("--json", arguments->json, "print JSON");
   command->footer(
       "Exit code 1 when a proven search has a finding; the published search's are counted, not an "
