@@ -108,8 +108,23 @@ class DistanceQuery {
     result_.distance = {value, error, std::isfinite(condition) ? condition : 1.0};
   }
 
+  // In doubles alone: some simplex, with the bounds that hold for it, if they show the bodies
+  // apart.
+  bool SettleByDirection(const Simplex& start) {
+    const DistanceResult before = result_;
+    Conclude(TurnedOutward(start));
+    if (result_.lower > 0.0) {
+      result_.kind = DistanceKind::kSeparate;
+      result_.tier = Tier::kBound;
+      return true;
+    }
+    result_ = before;
+    return false;
+  }
+
   // What the search could not settle: the verdict first, and for separate bodies the exact search.
   void SettleByVerdict(const Simplex& start) {
+    if (!signs_.exact_allowed() && SettleByDirection(start)) return;
     const CollideResult verdict =
         Collide(m_.p(), m_.q(), m_.pose(), {.certainty = options_.certainty, .early_exit = true});
     result_.tier = verdict.tier;
@@ -126,11 +141,8 @@ class DistanceQuery {
       case Verdict::kSeparate:
         break;
     }
-    if (!signs_.exact_allowed()) {
-      // Some simplex, with bounds that hold for it.
-      result_.kind = DistanceKind::kSeparate;
-      return Conclude(TurnedOutward(start));
-    }
+    result_.kind = DistanceKind::kSeparate;
+    if (!signs_.exact_allowed()) return Conclude(TurnedOutward(start));
     const Simplex nearest = FindExactNearest(&signs_, start, &result_.counts);
     const bool settled = Settle(nearest);
     assert(settled);

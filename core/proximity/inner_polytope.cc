@@ -181,23 +181,52 @@ bool InnerPolytope::Evaluate(Signs* signs, int triangle) {
 }
 
 bool InnerPolytope::Start(Signs* signs, const std::array<VertexPair, 3>& triangle) {
-  Clear();
-  const MinkowskiDifference& m = signs->difference();
-  corners_.push_back({kInteriorDifference, m.c()});
-  for (const VertexPair& pair : triangle) corners_.push_back({pair, m.Point(pair)});
-  AddTriangle(1, 2, 3);
-  AddTriangle(0, 2, 1);
-  AddTriangle(0, 3, 2);
-  AddTriangle(0, 1, 3);
-  triangles_[0].across = {1, 2, 3};
-  triangles_[1].across = {2, 0, 3};
-  triangles_[2].across = {3, 0, 1};
-  triangles_[3].across = {1, 0, 2};
   // Not flat: o lies strictly on the inner side of the front.
   const auto front = signs->Determinant(triangle[0], triangle[1], triangle[2]);
   if (!front || *front <= 0) return false;
-  for (int i = 0; i < 4; ++i) {
-    if (!Evaluate(signs, i)) return false;
+  const std::array<VertexPair, 4> corners = {kInteriorDifference, triangle[0], triangle[1],
+                                             triangle[2]};
+  static constexpr std::array<int, 3> kSides[] = {{1, 2, 3}, {0, 2, 1}, {0, 3, 2}, {0, 1, 3}};
+  return Make(signs, corners, kSides);
+}
+
+bool InnerPolytope::StartFromSupports(Signs* signs, const Eigen::Matrix3d& axes,
+                                      PhaseCounts* counts) {
+  std::array<VertexPair, 6> corners;
+  for (int k = 0; k < 3; ++k) {
+    corners[2 * k] = signs->difference().Support(axes.col(k), {}, counts);
+    corners[2 * k + 1] = signs->difference().Support(-axes.col(k), {}, counts);
+  }
+  static constexpr std::array<int, 3> kSides[] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                                  {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  return Make(signs, corners, kSides);
+}
+
+// The closed surface of these triangles, o on the inner side of each.
+bool InnerPolytope::Make(Signs* signs, std::span<const VertexPair> corners,
+                         std::span<const std::array<int, 3>> sides) {
+  Clear();
+  for (const VertexPair& pair : corners) {
+    corners_.push_back({pair, pair == kInteriorDifference ? signs->difference().c()
+                                                          : signs->difference().Point(pair)});
+  }
+  for (const auto& [a, b, c] : sides) AddTriangle(a, b, c);
+  for (Triangle& t : triangles_) {
+    for (int k = 0; k < 3; ++k) {
+      for (int other = 0; other < static_cast<int>(sides.size()); ++other) {
+        for (int i = 0; i < 3; ++i) {
+          if (sides[other][i] == t.corners[(k + 1) % 3] &&
+              sides[other][(i + 1) % 3] == t.corners[k])
+            t.across[k] = other;
+        }
+      }
+    }
+  }
+  for (int i = 0; i < static_cast<int>(triangles_.size()); ++i) {
+    if (!Evaluate(signs, i)) {
+      Clear();
+      return false;
+    }
     Push(i);
   }
   return true;

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "touchstone/core/cd_dual/signs.h"
@@ -48,6 +49,10 @@ class InnerPolytope {
   // Begins with the tetrahedron of c and a triangle that is counterclockwise from outside. False if
   // a sign says that o is outside of it, or one cannot be told.
   bool Start(Signs* signs, const std::array<VertexPair, 3>& triangle);
+
+  // Begins with the octahedron of the supports along three axes and against them. The same errors;
+  // it need not be convex.
+  bool StartFromSupports(Signs* signs, const Eigen::Matrix3d& axes, PhaseCounts* counts);
 
   // Takes the corners to where they are now. False if a corner does not exist in these bodies, or o
   // is not certainly on the inner side of every triangle.
@@ -108,6 +113,8 @@ class InnerPolytope {
     int triangle, side;
   };
 
+  bool Make(Signs* signs, std::span<const VertexPair> corners,
+            std::span<const std::array<int, 3>> sides);
   int AddTriangle(int a, int b, int c);
   static double Tilt(const Triangle& t, double extent);
   void Straighten(Signs* signs, double extent, Triangle* t);

@@ -82,6 +82,7 @@ class PenetrationQuery {
     if (!started) {
       m_.ChooseInterior(chosen_p, chosen_q);
       started = StartByVerdict();
+      if (result_.verdict == Verdict::kUndecided) started = StartFromSupports();
     }
     if (!started) return;
     result_.verdict = Verdict::kOverlap;
@@ -98,6 +99,15 @@ class PenetrationQuery {
     return (proposal.kind == Proposal::Kind::kEnclosed ||
             proposal.kind == Proposal::Kind::kExitFacet) &&
            polytope_.Start(&signs_, proposal.triangle);
+  }
+
+  // In doubles alone, where ties on every ray from c hide the verdict: supports all around o may
+  // still hold it. Along the axes of P, and of a frame that no symmetry shares.
+  bool StartFromSupports() {
+    Eigen::Matrix3d aside;
+    aside << 0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6;
+    return polytope_.StartFromSupports(&signs_, Eigen::Matrix3d::Identity(), &result_.counts) ||
+           polytope_.StartFromSupports(&signs_, aside, &result_.counts);
   }
 
   // What the verdict's own search says: its tetrahedron, or the answer that nothing is to be grown.

@@ -75,6 +75,7 @@ void ProximityContext::CheckValue(const std::string& name, const BoundedValue& s
     Add(FindingKind::kValueOutOfBounds,
         is + " +- " + Number(stated.error) + ", is " + Number(exact.ToDouble()));
   }
+  if (options.certainty == Certainty::kFloat) return;
   const double size = std::abs(stated.value), condition = amplification * pair.size();
   if (size == 0) {
     if (stated.error > kConditionFactor * kErrorFactor * condition)
@@ -99,7 +100,7 @@ void ProximityContext::CheckPoint(const std::string& name, const Eigen::Vector3d
   if (!(error >= 0) || off > Real(error) + Slack(pair)) {
     Add(FindingKind::kValueOutOfBounds,
         name + " is off by " + Number(off.ToDouble()) + ", says " + Number(error));
-  } else if (error > kLengthTolerance * pair.size()) {
+  } else if (options.certainty == Certainty::kExact && error > kLengthTolerance * pair.size()) {
     Add(FindingKind::kLooseBound, name + " +- " + Number(error));
   }
 }

@@ -7,15 +7,15 @@
 //       the coordinates: 1 for distance and depth, 1 / (|s| cosine) for a travel (travel.cc). A S
 //       is the absolute condition.
 //
-// Of a BoundedValue (value, error, condition):
+// Of a BoundedValue (value, error, condition), how tight it is under kExact only:
 //
 //   |value - exact| <= error                              else value_out_of_bounds
 //   condition <= 64 (1 + A S / |value|)      value != 0   else loose_bound
 //   error <= 1e-12 condition |value|         value != 0   else loose_bound
 //   error <= 64e-12 A S                      value == 0   else loose_bound
 //
-// Of a point or translation: within its error, and that error <= 64e-12 S. Of lower and upper: they
-// hold, and lie within 64e-12 S of the value.
+// Of a point or translation: within its error, and under kExact that error <= 64e-12 S. Of lower
+// and upper: they hold, and under kExact lie within 64e-12 S of the value.
 #ifndef TOUCHSTONE_EXACT_JUDGE_PROXIMITY_CHECKS_H_
 #define TOUCHSTONE_EXACT_JUDGE_PROXIMITY_CHECKS_H_
 
