@@ -6,16 +6,22 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace touchstone {
 
 using Triangle = std::array<int, 3>;
 
+// A closed box, its sides parallel to the axes.
+struct Box3 {
+  Eigen::Vector3d low, high;
+};
+
 inline constexpr int kTreeWidth = 8;
 
-// Eight boxes, their coordinates in lanes. Lane l holds a box of faces below node children[l], or
-// of the single face ~children[l]. Unused lanes come last and hold boxes that nothing meets.
+// Eight boxes, their coordinates in lanes. Lane l holds a box round node children[l], or that of
+// the single item ~children[l]. Unused lanes come last and hold boxes that nothing meets.
 struct alignas(64) BoxNode {
   double low[3][kTreeWidth];
   double high[3][kTreeWidth];
@@ -28,31 +34,37 @@ struct alignas(64) BoxNode {
 void MeetingLanes(const BoxNode& a, const BoxNode& b, const Eigen::Vector3d& offset, double margin,
                   std::uint8_t masks[kTreeWidth]);
 
-// A tree of axis-parallel boxes over the faces of a mesh. Its shape is made once, from the body's
-// own frame; the boxes are fitted again wherever the body is placed.
+// A tree of boxes, over the faces of a mesh or other items. Its shape is made once; the boxes may
+// be fitted again wherever the items are placed.
 class BoxTree {
  public:
   BoxTree() = default;
-  // Complexity: O(n log n).
+  // Item i is faces[i], or boxes[i]. Complexity: O(n log n).
   BoxTree(std::span<const Eigen::Vector3d> points, std::span<const Triangle> faces);
+  explicit BoxTree(std::span<const Box3> boxes);
 
   // Fits the boxes to the points, whose number and faces are those of the construction: closed
   // boxes of the doubles as they are. Complexity: O(n).
   void Fit(std::span<const Eigen::Vector3d> points, std::span<const Triangle> faces);
 
+  // Appends all pairs i < j of items whose boxes meet. Complexity: O(n log n + k) for k pairs of
+  // items of similar size.
+  void MeetingItems(std::vector<std::pair<int, int>>* pairs) const;
+
   // Node 0 is the root; children come after their parents.
   std::span<const BoxNode> nodes() const { return nodes_; }
   const BoxNode& node(int i) const { return nodes_[i]; }
   // The box of everything.
-  const Eigen::Vector3d& low() const { return low_; }
-  const Eigen::Vector3d& high() const { return high_; }
+  const Eigen::Vector3d& low() const { return all_.low; }
+  const Eigen::Vector3d& high() const { return all_.high; }
 
  private:
-  int AddNode(std::span<const Eigen::Vector3d> points, std::span<const Triangle> faces,
-              std::span<int> members);
+  int AddNode(std::span<const Box3> boxes, std::span<int> members);
+  template <class BoxOf>
+  void FitBoxes(const BoxOf& box_of);
 
   std::vector<BoxNode> nodes_;
-  Eigen::Vector3d low_ = Eigen::Vector3d::Zero(), high_ = Eigen::Vector3d::Zero();
+  Box3 all_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 };
 
 }  // namespace touchstone

@@ -96,6 +96,18 @@ void MeshPair::FindPlanes(PlacedMesh* placed) const {
   }
 }
 
+// Three products and two sums are off by 3.01 units of the sum of absolute terms, below 3.1 max|n|
+// sum|d|; the data add sum|n| e_d + e_n (sum|d| + 3 e_d).
+Estimate HeightAlong(const Vector3d& normal, double normal_error, const Vector3d& difference,
+                     double difference_error) {
+  const double length = difference.cwiseAbs().sum();
+  const double error = 1.01 * (normal.cwiseAbs().sum() * difference_error +
+                               (3.1 * kUnit * MaxAbs(normal) + normal_error) * length +
+                               3.0 * normal_error * difference_error) +
+                       kUnderflow;
+  return {normal.dot(difference), error};
+}
+
 const DyadicVector& ExactMeshPair::PointOfA(int v) {
   auto [place, added] = points_of_a_.try_emplace(v);
   if (added) place->second = pose_.FromP(ToDyadic(a_.vertex(v)));

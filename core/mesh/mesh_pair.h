@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "touchstone/core/base/exact_pose.h"
+#include "touchstone/core/base/orientation.h"
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/mesh/box_tree.h"
 #include "touchstone/core/mesh/triangle_mesh.h"
@@ -21,6 +22,16 @@ namespace touchstone {
 
 // Bounds the relative rounding error of one operation in every rounding mode.
 inline constexpr double kUnit = 0x1p-52;
+
+// normal . difference, where each coordinate of the normal is off by at most normal_error, and of
+// the difference by difference_error.
+Estimate HeightAlong(const Eigen::Vector3d& normal, double normal_error,
+                     const Eigen::Vector3d& difference, double difference_error);
+
+// The sign of an estimate; 0: doubles cannot tell.
+inline int TriageSign(const Estimate& estimate) {
+  return estimate.value > estimate.error ? 1 : estimate.value < -estimate.error ? -1 : 0;
+}
 
 // A face's plane in doubles: a vertex of it, and the normal there (not of unit length). Each
 // coordinate of the normal is within `error` of the exact one.

@@ -75,16 +75,10 @@ Passage TriagePassage(const PlacedMesh& mesh, int face, const AxisRay& ray) {
   // The line crosses the triangle. Where, by the side of its plane that the point lies on.
   const FacePlane& plane = mesh.planes[face];
   const Vector3d difference = mesh.points[plane.vertex] - ray.point;
-  const double height = plane.normal.dot(difference);
-  const double length = difference.cwiseAbs().sum();
-  const double error =
-      1.01 * (plane.normal.cwiseAbs().sum() * ray.error +
-              (3.1 * kUnit * plane.normal.cwiseAbs().maxCoeff() + plane.error) * length +
-              3.0 * plane.error * ray.error) +
-      kUnderflow;
-  if (std::abs(height) <= error) return Passage::kUnsure;
+  const int side = TriageSign(HeightAlong(plane.normal, plane.error, difference, ray.error));
+  if (side == 0) return Passage::kUnsure;
   const bool faces_along = (positive == 3) == ray.is_positive;
-  return (height > 0) == faces_along ? Passage::kCrosses : Passage::kMisses;
+  return (side > 0) == faces_along ? Passage::kCrosses : Passage::kMisses;
 }
 
 // As in enclosure_internal.cc: the ray runs along +x and its start is moved by (0, ε, ε²).

@@ -9,7 +9,7 @@
 
 #include "touchstone/core/base/orientation.h"
 #include "touchstone/core/base/verdict.h"
-#include "touchstone/core/mesh/link_overlap_internal.h"
+#include "touchstone/core/mesh/link.h"
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/mesh/translation.h"
 

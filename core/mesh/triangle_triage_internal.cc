@@ -13,24 +13,6 @@ using Eigen::Vector3d;
 constexpr double kUnderflow = 0x1p-1000;
 
 double MaxAbs(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
-double SumAbs(const Vector3d& v) { return v.cwiseAbs().sum(); }
-
-// normal . difference, the normal off by normal_error and the difference by difference_error in
-// each coordinate: three products and two sums are off by 3.01 units of the sum of absolute terms,
-// below 3.1 max|n| sum|d|; the data by sum|n| e_d + e_n (sum|d| + 3 e_d).
-Estimate Height(const Vector3d& normal, double normal_error, const Vector3d& difference,
-                double difference_error) {
-  const double length = SumAbs(difference);
-  const double error = 1.01 * (SumAbs(normal) * difference_error +
-                               (3.1 * kUnit * MaxAbs(normal) + normal_error) * length +
-                               3.0 * normal_error * difference_error) +
-                       kUnderflow;
-  return {normal.dot(difference), error};
-}
-
-int SignOf(const Estimate& estimate) {  // 0: unsure
-  return estimate.value > estimate.error ? 1 : estimate.value < -estimate.error ? -1 : 0;
-}
 
 // Everything about two triangles that doubles can tell.
 class Triager {
@@ -48,14 +30,14 @@ class Triager {
     const Vector3d& origin_a = pair_.a().points[plane_a.vertex];
     for (int k = 0; k < 3; ++k) {
       sides_of_b_[k] =
-          SignOf(Height(plane_a.normal, plane_a.error, b_[k] - origin_a, offset_.error));
+          TriageSign(HeightAlong(plane_a.normal, plane_a.error, b_[k] - origin_a, offset_.error));
     }
     if (AreAllOnOneSide(sides_of_b_)) return Triage::kApart;
     const FacePlane& plane_b = pair_.b().planes[face_b_];
     const Vector3d origin_b = pair_.b().points[plane_b.vertex] + offset_.value;
     for (int k = 0; k < 3; ++k) {
       sides_of_a_[k] =
-          SignOf(Height(plane_b.normal, plane_b.error, a_[k] - origin_b, offset_.error));
+          TriageSign(HeightAlong(plane_b.normal, plane_b.error, a_[k] - origin_b, offset_.error));
     }
     if (AreAllOnOneSide(sides_of_a_)) return Triage::kApart;
     return CompareEdges();
@@ -104,7 +86,7 @@ class Triager {
     const double la = MaxAbs(edge_a), lb = MaxAbs(edge_b), error_b = 2.0 * offset_.error;
     // As for a plane's normal: two roundings on each of two paths, and the data.
     const double error = 1.01 * (2.0 * la * error_b + 6.2 * kUnit * la * lb) + kUnderflow;
-    return SignOf(Height(edge_a.cross(edge_b), error, b_[j] - a_[i], offset_.error));
+    return TriageSign(HeightAlong(edge_a.cross(edge_b), error, b_[j] - a_[i], offset_.error));
   }
 
   const MeshPair& pair_;

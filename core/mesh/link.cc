@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "touchstone/core/mesh/link_overlap_internal.h"
+#include "touchstone/core/mesh/link.h"
 
 #include <algorithm>
 #include <cassert>
 #include <climits>
 #include <cmath>
 
-namespace touchstone::internal {
+namespace touchstone {
 namespace {
 
 using Direction = LinkDirection;
@@ -137,9 +137,26 @@ bool SidesCross(const Link& p, const Link& q) {
   return false;
 }
 
-// Whether z, not on the polygon, lies inside it: walks from z to a point m of one of its sides,
+}  // namespace
+
+LinkDirection MakeLinkDirection(const DyadicVector& exact) {
+  LinkDirection direction{exact, Eigen::Vector3d::Zero()};
+  int exponents[3], greatest = INT_MIN;
+  for (int i = 0; i < 3; ++i) {
+    direction.rounded[i] = exact[i].ToScaledDouble(&exponents[i]);
+    if (direction.rounded[i] != 0.0) greatest = std::max(greatest, exponents[i]);
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (direction.rounded[i] == 0.0) continue;
+    direction.rounded[i] =
+        std::ldexp(direction.rounded[i], std::max(-1100, exponents[i] - greatest));
+  }
+  return direction;
+}
+
+// Walks from z to a point m of one of its sides,
 // chosen so that no corner is on the way, and counts the sides crossed.
-bool IsInside(const Direction& z, const Link& q) {
+bool LinkHolds(const Link& q, const LinkDirection& z) {
   const std::size_t n = q.size();
   for (std::size_t j = 0; j < n; ++j) {
     const int arrival = Turn(q[j], At(q, j + 1), z);
@@ -166,23 +183,6 @@ bool IsInside(const Direction& z, const Link& q) {
   return false;
 }
 
-}  // namespace
-
-LinkDirection MakeLinkDirection(const DyadicVector& exact) {
-  LinkDirection direction{exact, Eigen::Vector3d::Zero()};
-  int exponents[3], greatest = INT_MIN;
-  for (int i = 0; i < 3; ++i) {
-    direction.rounded[i] = exact[i].ToScaledDouble(&exponents[i]);
-    if (direction.rounded[i] != 0.0) greatest = std::max(greatest, exponents[i]);
-  }
-  for (int i = 0; i < 3; ++i) {
-    if (direction.rounded[i] == 0.0) continue;
-    direction.rounded[i] =
-        std::ldexp(direction.rounded[i], std::max(-1100, exponents[i] - greatest));
-  }
-  return direction;
-}
-
 bool LinksOverlap(const Link& p, const Link& q) {
   if (SidesCross(p, q)) return true;
   const Meeting corners_of_p = CornersOn(p, q, true);
@@ -190,7 +190,18 @@ bool LinksOverlap(const Link& p, const Link& q) {
   const Meeting corners_of_q = CornersOn(q, p, false);
   if (corners_of_q == Meeting::kOverlap) return true;
   if (corners_of_p != Meeting::kNone || corners_of_q != Meeting::kNone) return false;
-  return IsInside(p[0], q) || IsInside(q[0], p);
+  return LinkHolds(q, p[0]) || LinkHolds(p, q[0]);
 }
 
-}  // namespace touchstone::internal
+// The half-edges come counterclockwise seen from outside the solid, with the solid on the right.
+Link VertexLink(const TriangleMesh& mesh, int v) {
+  Link link;
+  for (const int h : mesh.vertex_half_edges(v)) {
+    link.push_back(
+        MakeLinkDirection(ToDyadic(mesh.vertex(mesh.head(h))) - ToDyadic(mesh.vertex(v))));
+  }
+  std::reverse(link.begin(), link.end());
+  return link;
+}
+
+}  // namespace touchstone

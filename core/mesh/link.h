@@ -3,15 +3,16 @@
 // Two solids touch at a point z. Near z each is a cone: all that counts of it is its link, the
 // region it cuts from a small sphere round z. Do the interiors of the two links meet? Then the
 // interiors of the solids meet, however near z one looks.
-#ifndef TOUCHSTONE_CORE_MESH_LINK_OVERLAP_INTERNAL_H_
-#define TOUCHSTONE_CORE_MESH_LINK_OVERLAP_INTERNAL_H_
+#ifndef TOUCHSTONE_CORE_MESH_LINK_H_
+#define TOUCHSTONE_CORE_MESH_LINK_H_
 
 #include <Eigen/Core>
 #include <vector>
 
 #include "touchstone/core/base/dyadic.h"
+#include "touchstone/core/mesh/triangle_mesh.h"
 
-namespace touchstone::internal {
+namespace touchstone {
 
 // A direction, exact, and in doubles for filters: each coordinate of `rounded` is within 2^-53 of
 // the exact one divided by a positive number, the largest is in [0.5, 1].
@@ -35,6 +36,13 @@ using Link = std::vector<LinkDirection>;
 // a corner of one lies inside the other.
 bool LinksOverlap(const Link& p, const Link& q);
 
-}  // namespace touchstone::internal
+// Whether a direction that is not on the link's boundary points into the solid, exactly.
+// Complexity: O(n) in general position.
+bool LinkHolds(const Link& link, const LinkDirection& direction);
 
-#endif  // TOUCHSTONE_CORE_MESH_LINK_OVERLAP_INTERNAL_H_
+// The link of mesh vertex v.
+Link VertexLink(const TriangleMesh& mesh, int v);
+
+}  // namespace touchstone
+
+#endif  // TOUCHSTONE_CORE_MESH_LINK_H_

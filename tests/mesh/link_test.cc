@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "touchstone/core/mesh/link.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -6,10 +8,9 @@
 #include <bit>
 #include <vector>
 
-#include "touchstone/core/mesh/link_overlap_internal.h"
 #include "touchstone/tests/testing/random.h"
 
-namespace touchstone::internal {
+namespace touchstone {
 namespace {
 
 using Eigen::Vector3d;
@@ -133,4 +134,4 @@ TEST(LinkOverlap, AgreesWithSampling) {
 }
 
 }  // namespace
-}  // namespace touchstone::internal
+}  // namespace touchstone

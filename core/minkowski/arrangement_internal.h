@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// All facets of the convolution cut against each other: stage one of the boundary. Facets in one
+// plane are taken together as a group; what cuts a group are the edges of its own facets and the
+// segments in which facets of other planes cross them.
+#ifndef TOUCHSTONE_CORE_MINKOWSKI_ARRANGEMENT_INTERNAL_H_
+#define TOUCHSTONE_CORE_MINKOWSKI_ARRANGEMENT_INTERNAL_H_
+
+#include <array>
+#include <map>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "touchstone/core/minkowski/sum_geometry_internal.h"
+
+namespace touchstone::internal {
+
+struct ArrangedFacet {
+  SumFacet name;
+  std::array<int, 4> corners;  // points, counterclockwise from outside; the last again if three
+  int count;
+  int plane;
+};
+
+// A piece of a line: an edge of facets, or where two facets of different planes cross.
+struct Segment {
+  int facet_f = -1, facet_g = -1;  // -1: an edge of facets, which its ends name
+  // Whether a crossing passes through the inside of the facet, rather than along an edge of it.
+  bool is_inside_f = false, is_inside_g = false;
+  int axis;                 // a coordinate that rises or falls strictly along it
+  std::vector<int> points;  // its ends, and whatever else lies on it; in order once sorted
+
+  bool is_edge() const { return facet_f < 0; }
+};
+
+// A segment as a group sees it.
+struct Wall {
+  int segment;
+  int line_plane;  // meets the group's plane in the segment's line
+  int facet;       // of the group: the facet that it is an edge of, or that is crossed
+  int other;       // the facet that crosses; -1 for an edge
+  // For an edge: whether the facet lies on the left of the direction from points.front() on, as
+  // the segment was made, seen against the group's normal.
+  bool facet_is_left;
+};
+
+struct Group {
+  int plane;  // whose normal orients the group
+  std::vector<int> facets;
+  std::vector<Wall> walls;
+};
+
+struct Arrangement {
+  std::vector<ArrangedFacet> facets;
+  std::vector<Segment> segments;
+  std::vector<Group> groups;
+  // Equal points, by exact comparison, are one: the number of each point's representative.
+  std::vector<int> representative;
+  long box_pairs = 0, crossings = 0;
+};
+
+// Cuts the facets. Points on segments are complete, sorted, and representatives.
+// Complexity: O(n log n + k + sum over groups of w^2) for k pairs of facets whose boxes meet and
+// w walls of a group.
+Arrangement Arrange(SumGeometry* geometry, std::span<const SumFacet> facets);
+
+}  // namespace touchstone::internal
+
+#endif  // TOUCHSTONE_CORE_MINKOWSKI_ARRANGEMENT_INTERNAL_H_

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/minkowski/equal_points_internal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+
+#include "touchstone/core/minkowski/arrangement_internal.h"
+
+namespace touchstone::internal {
+namespace {
+
+// Points are looked up in cells of this size, in scaled lengths (the pair is of size one); errors
+// are below half of it, so equal points lie in the same cell or in neighbouring ones.
+constexpr double kCell = 0x1p-36;
+constexpr double kMaxError = 0.25 * kCell;
+
+class Finder {
+ public:
+  explicit Finder(SumGeometry* geometry) : geometry_(*geometry), parent_(geometry->point_count()) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  void Add(int point) {
+    if (is_added_.empty()) is_added_.resize(parent_.size(), 0);
+    if (is_added_[point]) return;
+    is_added_[point] = 1;
+    if (!(geometry_.point(point).error < kMaxError)) geometry_.Sharpen(point);
+    const SumPoint& x = geometry_.point(point);
+    // Every cell that the point's error reaches: eight at most.
+    std::int64_t low[3], high[3];
+    for (int i = 0; i < 3; ++i) {
+      low[i] = static_cast<std::int64_t>(std::floor((x.rounded[i] - x.error) / kCell));
+      high[i] = static_cast<std::int64_t>(std::floor((x.rounded[i] + x.error) / kCell));
+    }
+    for (std::int64_t i = low[0]; i <= high[0]; ++i) {
+      for (std::int64_t j = low[1]; j <= high[1]; ++j) {
+        for (std::int64_t k = low[2]; k <= high[2]; ++k) AddToCell(point, Hash(i, j, k));
+      }
+    }
+  }
+
+  std::vector<int> Representatives() {
+    for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = Find(static_cast<int>(i));
+    return std::move(parent_);
+  }
+
+ private:
+  static std::uint64_t Hash(std::int64_t i, std::int64_t j, std::int64_t k) {
+    std::uint64_t hash = static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ (hash >> 29) ^ static_cast<std::uint64_t>(j)) * 0xbf58476d1ce4e5b9u;
+    hash = (hash ^ (hash >> 32) ^ static_cast<std::uint64_t>(k)) * 0x94d049bb133111ebu;
+    return hash ^ (hash >> 31);
+  }
+
+  void AddToCell(int point, std::uint64_t cell) {
+    std::vector<int>& members = cells_[cell];
+    for (const int other : members) {
+      if (Find(other) == Find(point)) continue;
+      if (geometry_.AreEqual(other, point)) {
+        const auto [small, large] = std::minmax({Find(other), Find(point)});
+        parent_[large] = small;
+      }
+    }
+    members.push_back(point);
+  }
+
+  int Find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  SumGeometry& geometry_;
+  std::vector<int> parent_;
+  std::vector<char> is_added_;
+  std::unordered_map<std::uint64_t, std::vector<int>> cells_;
+};
+
+}  // namespace
+
+std::vector<int> FindEqualPoints(SumGeometry* geometry, std::span<const Segment> segments) {
+  Finder finder(geometry);
+  for (const Segment& segment : segments) {
+    for (const int point : segment.points) finder.Add(point);
+  }
+  return finder.Representatives();
+}
+
+}  // namespace touchstone::internal

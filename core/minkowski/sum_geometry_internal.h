@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+//
+// Points and planes of the arrangement of facets of M, named by features, never rounded: a point is
+// a vertex of M, or where an edge of M crosses a plane, or where three planes meet. Each has a
+// rounding with a bound, which decides nearly every sign, and homogeneous coordinates with big
+// numbers on demand, which decide the rest.
+#ifndef TOUCHSTONE_CORE_MINKOWSKI_SUM_GEOMETRY_INTERNAL_H_
+#define TOUCHSTONE_CORE_MINKOWSKI_SUM_GEOMETRY_INTERNAL_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "touchstone/core/base/dyadic.h"
+#include "touchstone/core/mesh/mesh_pair.h"
+#include "touchstone/core/mesh/translation.h"
+#include "touchstone/core/minkowski/convolution.h"
+
+namespace touchstone::internal {
+
+// In the pair's scaled frame.
+struct SumPlane {
+  Eigen::Vector3d normal;  // each coordinate within normal_error
+  double normal_error;
+  Eigen::Vector3d origin;  // rounding of a point of the plane, each coordinate within origin_error
+  double origin_error;
+  // The points that it is named by: a facet's corners, the last one again where there are three;
+  // or two, and the axis that it is parallel to.
+  std::array<int, 4> points;
+  int axis = -1;   // -1 for a facet's plane
+  SumFacet facet;  // for a facet's plane
+};
+
+enum class SumPointForm : std::uint8_t {
+  kVertex,    // parts: a vertex of A, one of B
+  kOnEdge,    // two points that are vertices, a plane
+  kOfPlanes,  // three planes
+};
+
+struct SumPoint {
+  SumPointForm form;
+  std::array<int, 3> parts;
+  Eigen::Vector3d rounded;
+  double error;  // of each coordinate; infinite where doubles cannot tell
+};
+
+class SumGeometry {
+ public:
+  // Keeps a reference to the pair.
+  explicit SumGeometry(const MeshPair& pair) : pair_(pair), exact_pair_(pair) {}
+
+  const MeshPair& pair() const { return pair_; }
+
+  // Each returns the number of a new or known point.
+  int AddVertex(SumVertex vertex);
+  int AddOnEdge(int vertex, int other_vertex, int plane);
+  int AddOfPlanes(int p, int q, int r);
+  // The plane of a facet with these corners; its normal points outward.
+  int AddFacetPlane(const SumFacet& facet, const std::array<int, 4>& corners);
+  // The plane through two vertices and parallel to a coordinate axis, new or known.
+  int AddEdgePlane(int vertex, int other_vertex, int axis);
+
+  int point_count() const { return static_cast<int>(points_.size()); }
+  const SumPoint& point(int i) const { return points_[i]; }
+  const SumPlane& plane(int p) const { return planes_[p]; }
+
+  // Says that two planes are one. Points made of either from then on are the same.
+  void Unite(int p, int q);
+  int Root(int plane) const;
+
+  // The side of a plane that a point lies on: 1 beyond, along the normal.
+  int Side(int point, int plane);
+  // The sign of x - y along a coordinate axis.
+  int Compare(int x, int y, int axis);
+  bool AreEqual(int x, int y);
+  // The sign of coordinate `axis` of (y - x) x (z - x).
+  int Turn(int x, int y, int z, int axis);
+  // The same in doubles alone; 0: they cannot tell.
+  static int TriageTurn(const SumPoint& x, const SumPoint& y, const SumPoint& z, int axis);
+  // The sign of det(normals of p, q, r).
+  int NormalsDeterminant(int p, int q, int r);
+  // The sign of the dot product of two normals.
+  int NormalsAgree(int p, int q);
+  // The sign of coordinate `axis` of normal p x normal q, and an axis where it is not zero (-1 if
+  // the planes are parallel).
+  int LineAlong(int p, int q, int axis);
+  int LineAxis(int p, int q);
+  // An axis where the normal is certainly not zero, as large as any; and its sign there.
+  int NormalAxis(int plane);
+  int NormalAlong(int plane, int axis);
+
+  // Makes a wide or infinite rounding error narrow, by way of the exact point.
+  void Sharpen(int point);
+  // Times the factor of the pair's exact pose, not scaled.
+  const ExactPoint& Exact(int point);
+  const Dyadic& factor() const { return exact_pair_.pose().factor(); }
+  // How many signs needed big numbers.
+  long exact_count() const { return exact_count_; }
+
+ private:
+  struct ExactPlane {
+    DyadicVector normal;
+    Dyadic offset;  // normal . x for the plane's points
+  };
+  using Key = std::array<int, 4>;
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const;
+  };
+
+  int Add(SumPointForm form, const std::array<int, 3>& parts);
+  void RoundOnEdge(SumPoint* point) const;
+  void RoundOfPlanes(SumPoint* point) const;
+  static Estimate Height(const SumPoint& x, const SumPlane& plane);
+  bool LiesOnByName(const SumPoint& x, int plane) const;
+  bool IsVertexOfFlatFacet(const SumPoint& x, const SumFacet& facet) const;
+  const ExactPlane& ExactPlaneOf(int plane);
+  ExactPoint MakeExact(const SumPoint& point);
+
+  const MeshPair& pair_;
+  ExactMeshPair exact_pair_;
+  std::vector<SumPoint> points_;
+  std::vector<SumPlane> planes_;
+  mutable std::vector<int> roots_;
+  std::unordered_map<Key, int, KeyHash> point_numbers_, edge_planes_;
+  std::unordered_map<int, ExactPoint> exact_points_;
+  std::unordered_map<int, ExactPlane> exact_planes_;
+  long exact_count_ = 0;
+};
+
+}  // namespace touchstone::internal
+
+#endif  // TOUCHSTONE_CORE_MINKOWSKI_SUM_GEOMETRY_INTERNAL_H_
