@@ -5,6 +5,9 @@
 
 #include <string>
 
+#include "touchstone/core/mesh/membership.h"
+#include "touchstone/tools/shapes/paper_scenes.h"
+
 namespace touchstone {
 namespace {
 
@@ -45,6 +48,27 @@ TEST(Shapes, ThePapersScenesHaveItsSizes) {
     EXPECT_EQ(MustBuild(scenes[i].a).face_count(), sizes[i][0]);
     EXPECT_EQ(MustBuild(scenes[i].b).face_count(), sizes[i][1]);
   }
+}
+
+TEST(PaperScenes, OverlapAllTheWayInABallOfThePapersSize) {
+  const std::array<std::array<int, 2>, 4> sizes = {
+      {{1000, 36}, {1300, 1008}, {950, 1600}, {2000, 2000}}};
+  ASSERT_EQ(AllPaperScenes().size(), 4u);
+  for (int i = 0; i < 4; ++i) {
+    const PaperScene& scene = AllPaperScenes()[i];
+    SCOPED_TRACE(scene.name);
+    EXPECT_EQ(FindPaperScene(scene.name), &scene);
+    const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
+    EXPECT_EQ(a.face_count(), sizes[i][0]);
+    EXPECT_EQ(b.face_count(), sizes[i][1]);
+    EXPECT_LT(a.max_coordinate() + b.max_coordinate(), 2.0 * kPaperSumRadius);
+    for (int frame = 0; frame <= kPaperFrames; frame += 5) {
+      const MeshPair pair(a, b, scene.PoseAt(static_cast<double>(frame) / kPaperFrames));
+      EXPECT_EQ(Membership(pair, Eigen::Vector3d::Zero().eval()).verdict, Verdict::kOverlap)
+          << frame;
+    }
+  }
+  EXPECT_EQ(FindPaperScene("no such scene"), nullptr);
 }
 
 TEST(Shapes, RefiningKeepsTheBody) {
