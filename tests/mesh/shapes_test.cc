@@ -40,7 +40,7 @@ TEST(Shapes, HaveTheTopologyOfWhatTheyAre) {
 }
 
 TEST(Shapes, ThePapersScenesHaveItsSizes) {
-  const std::vector<Scene> scenes = PaperScenes();
+  const std::vector<PaperScene> scenes = PaperScenes();
   ASSERT_EQ(scenes.size(), 4u);
   const std::array<std::array<int, 2>, 4> sizes = {
       {{1000, 36}, {1300, 1008}, {950, 1600}, {2000, 2000}}};

@@ -85,7 +85,7 @@ std::span<const std::string> ShapeNames() {
   return kNames;
 }
 
-std::vector<Scene> PaperScenes() {
+std::vector<PaperScene> PaperScenes() {
   return {{"cone/axes", NamedShape("cone", 1000), NamedShape("axes", 36)},
           {"spoon/cup", NamedShape("spoon", 1300), NamedShape("cup", 1008)},
           {"fish/torus", NamedShape("fish", 950), NamedShape("torus", 1600)},

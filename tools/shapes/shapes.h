@@ -60,11 +60,11 @@ Shape NamedShape(const std::string& name, int face_count);
 std::span<const std::string> ShapeNames();
 
 // The pairs of the paper's benchmarks, at its sizes.
-struct Scene {
+struct PaperScene {
   std::string name;
   Shape a, b;
 };
-std::vector<Scene> PaperScenes();
+std::vector<PaperScene> PaperScenes();
 
 }  // namespace touchstone
 
