@@ -24,7 +24,8 @@ struct Trace {
 
 class Arranger {
  public:
-  Arranger(SumGeometry* geometry, std::span<const SumFacet> names) : geometry_(*geometry) {
+  Arranger(SumGeometry* geometry, std::span<const SumFacet> names, std::span<const char> is_active)
+      : geometry_(*geometry), is_active_(is_active) {
     result_.facets.reserve(names.size());
     for (const SumFacet& name : names) {
       const SumCorners corners = CornersOf(geometry_.pair(), name);
@@ -55,6 +56,11 @@ class Arranger {
   };
 
   const ArrangedFacet& facet(int f) const { return result_.facets[f]; }
+  bool IsActive(int f) const { return is_active_.empty() || is_active_[f] != 0; }
+  bool IsActive(const Group& group) const {
+    return std::any_of(group.facets.begin(), group.facets.end(),
+                       [&](int f) { return IsActive(f); });
+  }
 
   // Pairs of facets that are not clear of each other's planes; coplanar ones are united.
   void FindCrossingPairs() {
@@ -74,7 +80,9 @@ class Arranger {
     // In a fixed order, whatever the tree: facets come sorted.
     std::sort(near.begin(), near.end());
     result_.box_pairs = static_cast<long>(near.size());
-    for (const auto& [f, g] : near) ClassifyPair(f, g);
+    for (const auto& [f, g] : near) {
+      if (IsActive(f) || IsActive(g)) ClassifyPair(f, g);
+    }
   }
 
   void ClassifyPair(int f, int g) {
@@ -140,6 +148,7 @@ class Arranger {
     for (std::size_t f = 0; f < result_.facets.size(); ++f) {
       const ArrangedFacet& own = result_.facets[f];
       Group& group = result_.groups[group_of_facet_[f]];
+      if (!IsActive(group)) continue;
       const int axis = geometry_.NormalAxis(group.plane);
       const bool agrees =
           own.plane == group.plane || geometry_.NormalsAgree(own.plane, group.plane) > 0;
@@ -207,10 +216,10 @@ class Arranger {
     const int number = static_cast<int>(result_.segments.size());
     result_.segments.push_back(
         {pair.f, pair.g, !of_f->is_on_edge, !of_g->is_on_edge, axis, {from, to}});
-    result_.groups[group_of_facet_[pair.f]].walls.push_back(
-        {number, plane_g, pair.f, pair.g, false});
-    result_.groups[group_of_facet_[pair.g]].walls.push_back(
-        {number, plane_f, pair.g, pair.f, false});
+    Group &group_f = result_.groups[group_of_facet_[pair.f]],
+          &group_g = result_.groups[group_of_facet_[pair.g]];
+    if (IsActive(group_f)) group_f.walls.push_back({number, plane_g, pair.f, pair.g, false});
+    if (IsActive(group_g)) group_g.walls.push_back({number, plane_f, pair.g, pair.f, false});
   }
 
   // Adds to each wall's segment the points in which the group's other walls meet it.
@@ -303,6 +312,7 @@ class Arranger {
   }
 
   SumGeometry& geometry_;
+  const std::span<const char> is_active_;
   Arrangement result_;
   std::vector<CrossingPair> crossing_;
   std::vector<int> group_of_facet_;
@@ -310,8 +320,9 @@ class Arranger {
 
 }  // namespace
 
-Arrangement Arrange(SumGeometry* geometry, std::span<const SumFacet> facets) {
-  return Arranger(geometry, facets).Run();
+Arrangement Arrange(SumGeometry* geometry, std::span<const SumFacet> facets,
+                    std::span<const char> is_active) {
+  return Arranger(geometry, facets, is_active).Run();
 }
 
 }  // namespace touchstone::internal

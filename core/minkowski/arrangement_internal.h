@@ -62,9 +62,15 @@ struct Arrangement {
 };
 
 // Cuts the facets. Points on segments are complete, sorted, and representatives.
+//
+// Facets that are not active only cut those that are: pairs of them are left out, and a group with
+// no active facet gets no walls. Of an active facet everything is as if all were active, given all
+// facets that meet it. An empty span: all are.
+//
 // Complexity: O(n log n + k + sum over groups of w^2) for k pairs of facets whose boxes meet and
 // w walls of a group.
-Arrangement Arrange(SumGeometry* geometry, std::span<const SumFacet> facets);
+Arrangement Arrange(SumGeometry* geometry, std::span<const SumFacet> facets,
+                    std::span<const char> is_active = {});
 
 }  // namespace touchstone::internal
 

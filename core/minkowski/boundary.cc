@@ -138,43 +138,9 @@ class Builder {
       const SumPoint& x = geometry_.point(point);
       result_.vertices.push_back(x.rounded / pair_.scale());
       result_.rounding = std::max(result_.rounding, x.error / pair_.scale());
-      result_.names.push_back(NameOf(x));
+      result_.names.push_back(geometry_.NameOf(point));
     }
     return place->second;
-  }
-
-  SumVertex VertexOf(int point) const {
-    const SumPoint& x = geometry_.point(point);
-    return {x.parts[0], x.parts[1]};
-  }
-
-  SumPointName NameOf(const SumPoint& x) const {
-    SumPointName name;
-    if (x.form == SumPointForm::kVertex) {
-      name.vertices[0] = {x.parts[0], x.parts[1]};
-      return name;
-    }
-    if (x.form == SumPointForm::kOnEdge) {
-      name.kind = SumPointKind::kEdgeFacet;
-      name.vertices[0] = VertexOf(x.parts[0]);
-      name.vertices[1] = VertexOf(x.parts[1]);
-      name.facets[0] = x.parts[2];
-      return name;
-    }
-    // Planes of facets have the facets' numbers; planes through edges come after them.
-    name.kind = SumPointKind::kThreeFacets;
-    int facets = 0, vertices = 0;
-    for (const int plane : x.parts) {
-      const internal::SumPlane& own = geometry_.plane(plane);
-      if (own.axis < 0) {
-        name.facets[facets++] = plane;
-        continue;
-      }
-      name.kind = SumPointKind::kEdgeEdge;
-      name.vertices[vertices++] = VertexOf(own.points[0]);
-      name.vertices[vertices++] = VertexOf(own.points[1]);
-    }
-    return name;
   }
 
   // Segments and points of ∂M with M° all around. Around a segment in the inside of two facets

@@ -15,25 +15,9 @@
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/minkowski/convolution.h"
 #include "touchstone/core/minkowski/gauss_map.h"
+#include "touchstone/core/minkowski/sum_point_name.h"
 
 namespace touchstone {
-
-// What a point of ∂M is, exactly.
-enum class SumPointKind : std::uint8_t {
-  kVertex,       // a vertex of A less one of B
-  kEdgeFacet,    // where an edge of M crosses the plane of a facet
-  kEdgeEdge,     // where two edges of coplanar facets cross
-  kThreeFacets,  // where the planes of three facets meet
-};
-
-struct SumPointName {
-  SumPointKind kind = SumPointKind::kVertex;
-  // kVertex: one; kEdgeFacet: the edge's two; kEdgeEdge: those of both edges.
-  std::array<SumVertex, 4> vertices{};
-  // Numbers in SumBoundary::facets. kEdgeFacet: one; kEdgeEdge: one that lies in the plane;
-  // kThreeFacets: three.
-  std::array<int, 3> facets = {-1, -1, -1};
-};
 
 // A connected piece of the closed surface.
 struct SumComponent {
@@ -42,8 +26,8 @@ struct SumComponent {
 };
 
 struct SumBoundary {
-  // Points by name, and their roundings: coordinates here are rounded, each within `rounding` of
-  // the exact one; what is built on them is exact.
+  // Points by name, facets by their numbers in `facets`, and their roundings: coordinates here are
+  // rounded, each within `rounding` of the exact one; what is built on them is exact.
   std::vector<SumPointName> names;
   std::vector<Eigen::Vector3d> vertices;
   double rounding = 0.0;

@@ -441,6 +441,7 @@ CellComplex FindCells(SumGeometry* geometry, const Arrangement& arrangement) {
   CellComplex complex;
   PieceTable table(arrangement.segments);
   for (int g = 0; g < static_cast<int>(arrangement.groups.size()); ++g) {
+    if (arrangement.groups[g].walls.empty()) continue;
     GroupCells(geometry, arrangement, table, g).Run(&complex.cells);
   }
   complex.pieces = table.Take();

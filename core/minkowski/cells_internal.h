@@ -37,8 +37,8 @@ struct CellComplex {
   std::vector<Cell> cells;
 };
 
-// Cuts every group into cells. A cell is buried if it borders, on the inner side of a facet, on a
-// segment within that facet's inside: points just inside a facet lie in M°.
+// Cuts every group that has walls into cells. A cell is buried if it borders, on the inner side of
+// a facet, on a segment within that facet's inside: points just inside a facet lie in M°.
 // Complexity: O(w log w) a group, and O(w c) where its walls hang together in c > 1 parts.
 CellComplex FindCells(SumGeometry* geometry, const Arrangement& arrangement);
 

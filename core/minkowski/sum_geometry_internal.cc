@@ -80,6 +80,39 @@ int SumGeometry::AddOfPlanes(int p, int q, int r) {
   return number;
 }
 
+SumVertex SumGeometry::VertexOf(int point) const {
+  return {points_[point].parts[0], points_[point].parts[1]};
+}
+
+SumPointName SumGeometry::NameOf(int point) const {
+  const SumPoint& x = points_[point];
+  SumPointName name;
+  if (x.form == SumPointForm::kVertex) {
+    name.vertices[0] = VertexOf(point);
+    return name;
+  }
+  if (x.form == SumPointForm::kOnEdge) {
+    name.kind = SumPointKind::kEdgeFacet;
+    name.vertices[0] = VertexOf(x.parts[0]);
+    name.vertices[1] = VertexOf(x.parts[1]);
+    name.facets[0] = x.parts[2];
+    return name;
+  }
+  name.kind = SumPointKind::kThreeFacets;
+  int facets = 0, vertices = 0;
+  for (const int plane : x.parts) {
+    const SumPlane& own = planes_[plane];
+    if (own.axis < 0) {
+      name.facets[facets++] = plane;
+      continue;
+    }
+    name.kind = SumPointKind::kEdgeEdge;
+    name.vertices[vertices++] = VertexOf(own.points[0]);
+    name.vertices[vertices++] = VertexOf(own.points[1]);
+  }
+  return name;
+}
+
 // Heights h, k of the edge's ends over the plane, off by e_h, e_k, cross it at s = h / (h - k), off
 // by (e_h |k| + e_k |h|) / (|h - k| (|h - k| - e_h - e_k)); the division and its operands are
 // rounded thrice.

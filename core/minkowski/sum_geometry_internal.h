@@ -17,6 +17,7 @@
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/mesh/translation.h"
 #include "touchstone/core/minkowski/convolution.h"
+#include "touchstone/core/minkowski/sum_point_name.h"
 
 namespace touchstone::internal {
 
@@ -65,6 +66,8 @@ class SumGeometry {
   int point_count() const { return static_cast<int>(points_.size()); }
   const SumPoint& point(int i) const { return points_[i]; }
   const SumPlane& plane(int p) const { return planes_[p]; }
+  // Facets in it are the numbers of their planes; requires all facets' planes added before others.
+  SumPointName NameOf(int point) const;
 
   // Says that two planes are one. Points made of either from then on are the same.
   void Unite(int p, int q);
@@ -109,6 +112,7 @@ class SumGeometry {
     std::size_t operator()(const Key& key) const;
   };
 
+  SumVertex VertexOf(int point) const;
   int Add(SumPointForm form, const std::array<int, 3>& parts);
   void RoundOnEdge(SumPoint* point) const;
   void RoundOfPlanes(SumPoint* point) const;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/minkowski/gather_internal.h"
+
+#include <algorithm>
+
+namespace touchstone::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+bool Meet(const Box3& a, const Box3& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
+}  // namespace
+
+FacetCorners RoundedCorners(const MeshPair& pair, const SumFacet& facet) {
+  const SumCorners corners = CornersOf(pair, facet);
+  FacetCorners rounded;
+  rounded.count = corners.count;
+  for (int k = 0; k < corners.count; ++k) {
+    const SumVertex& x = corners.vertices[k];
+    rounded.points[k] = pair.a().points[x.a] - pair.b().points[x.b];
+  }
+  return rounded;
+}
+
+Box3 BoxOf(const MeshPair& pair, const FacetCorners& corners) {
+  Box3 box{corners.points[0], corners.points[0]};
+  for (int k = 1; k < corners.count; ++k) {
+    box.low = box.low.cwiseMin(corners.points[k]);
+    box.high = box.high.cwiseMax(corners.points[k]);
+  }
+  // A point's error, as SumGeometry::AddVertex has it, and the rounding of these sums.
+  const double error = 1.1 * (pair.a().point_error + pair.b().point_error + 4.0 * kUnit);
+  box.low -= Vector3d::Constant(error);
+  box.high += Vector3d::Constant(error);
+  return box;
+}
+
+bool MeetsBall(const FacetCorners& corners, const ScaledBall& ball) {
+  return DistanceToPolygon(ball.center(), corners.points.data(), corners.count) <=
+         ball.gathering_reach();
+}
+
+void NearBoxes::Add(const Box3& box) {
+  if (boxes_.empty()) {
+    all_ = box;
+  } else {
+    all_.low = all_.low.cwiseMin(box.low);
+    all_.high = all_.high.cwiseMax(box.high);
+  }
+  boxes_.push_back(box);
+}
+
+bool NearBoxes::MeetsAny(const Box3& box) const {
+  if (boxes_.empty() || !Meet(all_, box)) return false;
+  return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box3& own) { return Meet(own, box); });
+}
+
+std::optional<SumFacet> SupportedFacet(SupportSigns* signs, const TriangleMesh& a,
+                                       const TriangleMesh& b, const SumFacet& candidate) {
+  switch (candidate.kind) {
+    case SumFacetKind::kFaceVertex:
+      if (!signs->FaceVertex(Side::kA, candidate.a, candidate.b)) return std::nullopt;
+      return candidate;
+    case SumFacetKind::kVertexFace:
+      if (!signs->FaceVertex(Side::kB, candidate.b, candidate.a)) return std::nullopt;
+      return candidate;
+    case SumFacetKind::kEdgeEdge:
+      break;
+  }
+  if (a.edge_kind(candidate.a) != EdgeKind::kConvex ||
+      b.edge_kind(candidate.b) != EdgeKind::kConvex) {
+    return std::nullopt;
+  }
+  return signs->EdgeEdge(candidate.a, candidate.b);
+}
+
+void SelectFacets(const MeshPair& pair, std::span<const SumFacet> facets, const ScaledBall& ball,
+                  NearBoxes* near, GatheredFacets* gathered) {
+  near->Clear();
+  std::vector<char> meets_ball(facets.size(), 0);
+  std::vector<Box3> boxes(facets.size());
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    const FacetCorners corners = RoundedCorners(pair, facets[f]);
+    boxes[f] = BoxOf(pair, corners);
+    meets_ball[f] = MeetsBall(corners, ball);
+    if (meets_ball[f]) near->Add(boxes[f]);
+  }
+  gathered->facets.clear();
+  gathered->is_active.clear();
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    if (!meets_ball[f] && !near->MeetsAny(boxes[f])) continue;
+    gathered->facets.push_back(facets[f]);
+    gathered->is_active.push_back(meets_ball[f]);
+  }
+}
+
+}  // namespace touchstone::internal

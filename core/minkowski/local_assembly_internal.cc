@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/minkowski/local_assembly_internal.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "touchstone/core/minkowski/arrangement_internal.h"
+#include "touchstone/core/minkowski/cells_internal.h"
+#include "touchstone/core/minkowski/local_surface_internal.h"
+#include "touchstone/core/minkowski/sample_internal.h"
+#include "touchstone/core/minkowski/triangulate_cell_internal.h"
+
+namespace touchstone::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+// Beyond this the ball's surface is a plane as far as M is concerned, and squares would overflow.
+constexpr double kHuge = 0x1p400;
+
+class Assembler {
+ public:
+  Assembler(const MeshPair& pair, const GatheredFacets& gathered, const ScaledBall& ball,
+            AssemblyScope scope, MembershipCache* cache, LocalSum* sum)
+      : pair_(pair),
+        gathered_(gathered),
+        ball_(ball),
+        is_whole_(scope == AssemblyScope::kWhole),
+        cache_(*cache),
+        sum_(*sum),
+        geometry_(pair) {}
+
+  void Run() {
+    arrangement_ = Arrange(&geometry_, gathered_.facets, gathered_.is_active);
+    complex_ = FindCells(&geometry_, arrangement_);
+    MeasurePieces();
+    SelectCells();
+    FormPatches();
+    ClassifyPatches();
+    AddCells();
+    AddLonePieces();
+    NumberFacets();
+    sum_.facet_pairs = arrangement_.box_pairs;
+    sum_.crossings = arrangement_.crossings;
+    sum_.cells = static_cast<long>(complex_.cells.size());
+    sum_.exact_signs = geometry_.exact_count();
+  }
+
+ private:
+  const Cell& cell(int c) const { return complex_.cells[c]; }
+  int cell_count() const { return static_cast<int>(complex_.cells.size()); }
+  const Vector3d& At(int point) const { return geometry_.point(point).rounded; }
+
+  void MeasurePieces() {
+    is_near_.resize(complex_.pieces.size());
+    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
+      const Piece& piece = complex_.pieces[i];
+      is_near_[i] =
+          DistanceToSegment(ball_.center(), At(piece.from), At(piece.to)) <= ball_.reach();
+    }
+  }
+
+  void SelectCells() {
+    is_selected_.resize(complex_.cells.size());
+    for (int c = 0; c < cell_count(); ++c) is_selected_[c] = MeetsBall(cell(c));
+  }
+
+  // By a border, or because the ball passes through its inside.
+  bool MeetsBall(const Cell& own) const {
+    for (const int piece : own.pieces) {
+      if (is_near_[piece]) return true;
+    }
+    const SumPlane& plane = geometry_.plane(arrangement_.groups[own.group].plane);
+    const double squared = plane.normal.squaredNorm();
+    const double height = plane.normal.dot(ball_.center() - plane.origin);
+    if (!(std::abs(height) <= ball_.reach() * std::sqrt(squared))) return false;
+    const Vector3d foot = ball_.center() - height / squared * plane.normal;
+    int axis = 0;
+    plane.normal.cwiseAbs().maxCoeff(&axis);
+    return IsInLoops(own.loops, foot, axis);
+  }
+
+  // By the parity of a ray; the point is not within the slack of any border.
+  bool IsInLoops(const std::vector<std::vector<int>>& loops, const Vector3d& x, int axis) const {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    bool inside = false;
+    for (const std::vector<int>& loop : loops) {
+      const Vector3d* u = &At(loop.back());
+      for (const int point : loop) {
+        const Vector3d* v = &At(point);
+        if (((*u)[i] > x[i]) != ((*v)[i] > x[i])) {
+          const Vector3d &low = (*u)[i] > x[i] ? *v : *u, &high = (*u)[i] > x[i] ? *u : *v;
+          inside ^= (high[i] - low[i]) * (x[j] - low[j]) > (high[j] - low[j]) * (x[i] - low[i]);
+        }
+        u = v;
+      }
+    }
+    return inside;
+  }
+
+  bool IsWanted(int c) const { return is_whole_ || is_selected_[c]; }
+
+  // Cells that meet along a piece with no third beside them lie in M° together or not at all:
+  // nothing else of ∂M comes there. Of a piece that is not in the ball not all cells may be known.
+  void FormPatches() {
+    cells_of_piece_.resize(complex_.pieces.size());
+    for (int c = 0; c < cell_count(); ++c) {
+      for (const int piece : cell(c).pieces) cells_of_piece_[piece].push_back(c);
+    }
+    patch_.resize(complex_.cells.size());
+    std::iota(patch_.begin(), patch_.end(), 0);
+    for (std::size_t i = 0; i < cells_of_piece_.size(); ++i) {
+      const std::vector<int>& cells = cells_of_piece_[i];
+      if (cells.size() == 2 && (is_whole_ || is_near_[i]))
+        patch_[Patch(cells[0])] = Patch(cells[1]);
+    }
+    for (int c = 0; c < cell_count(); ++c) patch_[c] = Patch(c);
+  }
+
+  int Patch(int c) {
+    while (patch_[c] != c) c = patch_[c] = patch_[patch_[c]];
+    return c;
+  }
+
+  void ClassifyPatches() {
+    std::vector<char> is_buried(complex_.cells.size(), 0);
+    std::vector<int> largest(complex_.cells.size(), -1);
+    std::vector<double> area(complex_.cells.size(), -1.0);
+    for (int c = 0; c < cell_count(); ++c) {
+      if (!IsWanted(c)) continue;
+      const int p = patch_[c];
+      is_buried[p] |= cell(c).is_buried;
+      const double own = SquaredAreaOf(cell(c).loops[0]);
+      if (own > area[p]) area[p] = own, largest[p] = c;
+    }
+    is_kept_.assign(complex_.cells.size(), 0);
+    triangles_.resize(complex_.cells.size());
+    for (int p = 0; p < cell_count(); ++p) {
+      if (area[p] < 0.0) continue;
+      ++sum_.patches;
+      if (!is_buried[p] && largest[p] >= 0) is_kept_[p] = IsOutsideM(largest[p]);
+    }
+  }
+
+  double SquaredAreaOf(const std::vector<int>& loop) const {
+    Vector3d twice = Vector3d::Zero();
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+      twice += (At(loop[k]) - At(loop[0])).cross(At(loop[k + 1]) - At(loop[0]));
+    }
+    return twice.squaredNorm();
+  }
+
+  const std::vector<std::array<int, 3>>& TrianglesOf(int c) {
+    if (triangles_[c].empty()) {
+      triangles_[c] =
+          TriangulateCell(&geometry_, arrangement_.groups[cell(c).group].plane, cell(c).loops);
+    }
+    return triangles_[c];
+  }
+
+  // By a sample point in the largest triangle of the cell.
+  bool IsOutsideM(int c) {
+    double largest = -1.0;
+    std::array<int, 3> triangle{};
+    for (const std::array<int, 3>& t : TrianglesOf(c)) {
+      const double area = SquaredArea(geometry_, t);
+      if (area > largest) largest = area, triangle = t;
+    }
+    if (largest < 0.0) return false;
+    const Sample sample = SampleIn(&geometry_, arrangement_.facets[FacetOf(c)], triangle);
+    const Verdict verdict = VerdictAt(sample);
+    sum_.detached_patches += verdict == Verdict::kSeparate;
+    return verdict != Verdict::kOverlap;
+  }
+
+  int FacetOf(int c) const { return cell(c).along.empty() ? cell(c).against[0] : cell(c).along[0]; }
+
+  Verdict VerdictAt(const Sample& sample) {
+    ++sum_.memberships;
+    return Membership(pair_, Translation(sample.rounded, sample.error, sample.exact), {}, &cache_)
+        .verdict;
+  }
+
+  void AddCells() {
+    int number = 0;
+    for (int c = 0; c < cell_count(); ++c) {
+      if (!is_selected_[c] || !is_kept_[patch_[c]]) continue;
+      const bool is_along = !cell(c).along.empty();
+      const bool is_sheet = is_along && !cell(c).against.empty();
+      for (std::array<int, 3> t : TrianglesOf(c)) {
+        if (!is_along) std::swap(t[1], t[2]);
+        for (int& point : t) point = AddPoint(point);
+        (is_sheet ? sum_.sheets : sum_.triangles).push_back(t);
+        (is_sheet ? sum_.facet_of_sheet : sum_.facet_of_triangle).push_back(FacetOf(c));
+        if (!is_sheet) sum_.cell_of_triangle.push_back(number);
+      }
+      number += !is_sheet;
+    }
+  }
+
+  int AddPoint(int point) {
+    const auto [place, added] =
+        number_of_point_.try_emplace(point, static_cast<int>(sum_.vertices.size()));
+    if (added) {
+      const SumPoint& x = geometry_.point(point);
+      sum_.vertices.push_back(x.rounded / pair_.scale());
+      sum_.rounding = std::max(sum_.rounding, x.error / pair_.scale());
+      sum_.names.push_back(geometry_.NameOf(point));
+    }
+    return place->second;
+  }
+
+  // As for the whole boundary (boundary.cc), for pieces and points in the ball: there all planes
+  // that pass are known.
+  void AddLonePieces() {
+    std::unordered_map<int, std::vector<std::pair<int, bool>>> planes_of_point;
+    std::vector<char> is_near_kept(geometry_.point_count(), 0);
+    std::vector<std::pair<int, bool>> planes;
+    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
+      if (!is_near_[i]) continue;
+      const Piece& piece = complex_.pieces[i];
+      bool is_kept = false;
+      planes.clear();
+      for (const int c : cells_of_piece_[i]) {
+        is_kept |= is_kept_[patch_[c]] != 0;
+        const int root = arrangement_.groups[cell(c).group].plane;
+        if (!cell(c).along.empty()) planes.emplace_back(root, true);
+        if (!cell(c).against.empty()) planes.emplace_back(root, false);
+      }
+      std::sort(planes.begin(), planes.end());
+      planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+      for (const int point : {piece.from, piece.to}) {
+        is_near_kept[point] |= is_kept;
+        if (!IsInBall(point)) continue;
+        auto& own = planes_of_point[point];
+        own.insert(own.end(), planes.begin(), planes.end());
+      }
+      if (is_kept || planes.size() < 3) continue;
+      if (VerdictAt(SampleBetween(&geometry_, piece.from, piece.to)) == Verdict::kOverlap) continue;
+      is_near_kept[piece.from] = is_near_kept[piece.to] = 1;
+      sum_.segments.push_back({AddPoint(piece.from), AddPoint(piece.to)});
+    }
+    AddLonePoints(&planes_of_point, is_near_kept);
+  }
+
+  void AddLonePoints(std::unordered_map<int, std::vector<std::pair<int, bool>>>* planes_of_point,
+                     const std::vector<char>& is_near_kept) {
+    std::vector<int> lone;
+    for (auto& [point, planes] : *planes_of_point) {
+      std::sort(planes.begin(), planes.end());
+      planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+      if (planes.size() >= 4 && !is_near_kept[point]) lone.push_back(point);
+    }
+    std::sort(lone.begin(), lone.end());
+    for (const int point : lone) {
+      if (VerdictAt(SampleBetween(&geometry_, point, point)) != Verdict::kOverlap) {
+        sum_.points.push_back(AddPoint(point));
+      }
+    }
+  }
+
+  bool IsInBall(int point) const { return (At(point) - ball_.center()).norm() <= ball_.reach(); }
+
+  // Lists the facets that the output mentions, and numbers them anew.
+  void NumberFacets() {
+    std::vector<int> number(gathered_.facets.size(), -1);
+    const auto mention = [&](int facet) {
+      if (facet >= 0) number[facet] = 0;
+    };
+    for (const int f : sum_.facet_of_triangle) mention(f);
+    for (const int f : sum_.facet_of_sheet) mention(f);
+    for (const SumPointName& name : sum_.names) {
+      for (const int f : name.facets) mention(f);
+    }
+    for (std::size_t f = 0; f < number.size(); ++f) {
+      if (number[f] < 0) continue;
+      number[f] = static_cast<int>(sum_.facets.size());
+      sum_.facets.push_back(gathered_.facets[f]);
+    }
+    for (int& f : sum_.facet_of_triangle) f = number[f];
+    for (int& f : sum_.facet_of_sheet) f = number[f];
+    for (SumPointName& name : sum_.names) {
+      for (int& f : name.facets) f = f < 0 ? f : number[f];
+    }
+  }
+
+  const MeshPair& pair_;
+  const GatheredFacets& gathered_;
+  const ScaledBall& ball_;
+  const bool is_whole_;
+  MembershipCache& cache_;
+  LocalSum& sum_;
+  SumGeometry geometry_;
+  Arrangement arrangement_;
+  CellComplex complex_;
+  std::vector<char> is_near_;      // pieces: in the ball
+  std::vector<char> is_selected_;  // cells: meet the ball
+  std::vector<std::vector<int>> cells_of_piece_;
+  std::vector<int> patch_;
+  std::vector<char> is_kept_;                               // by patch
+  std::vector<std::vector<std::array<int, 3>>> triangles_;  // by cell
+  std::unordered_map<int, int> number_of_point_;
+};
+
+}  // namespace
+
+ScaledBall::ScaledBall(const MeshPair& pair, const Ball& ball)
+    : center_(pair.scale() * ball.center), radius_(pair.scale() * ball.radius) {
+  const double size = center_.cwiseAbs().maxCoeff();
+  if (size > kHuge || radius_ > kHuge) {
+    // In units of the larger: M is a point at the origin.
+    const double unit = std::max(size, radius_);
+    const bool holds_m = (ball.center / (unit / pair.scale())).norm() <= radius_ / unit;
+    center_ = Vector3d::Zero();
+    radius_ = holds_m ? 0x1p10 : 0.0;
+    if (!holds_m) center_[0] = 0x1p10;
+  }
+  slack_ = 0x1p-36 * (1.0 + center_.cwiseAbs().maxCoeff() + radius_);
+}
+
+double DistanceToSegment(const Vector3d& x, const Vector3d& from, const Vector3d& to) {
+  const Vector3d edge = to - from, way = x - from;
+  const double squared = edge.squaredNorm();
+  const double along = squared > 0.0 ? std::clamp(way.dot(edge) / squared, 0.0, 1.0) : 0.0;
+  return (way - along * edge).norm();
+}
+
+// The foot in the plane where it lies within all sides; else a side is nearest.
+double DistanceToPolygon(const Vector3d& x, const Vector3d* corners, int count) {
+  double nearest = DistanceToSegment(x, corners[count - 1], corners[0]);
+  for (int k = 1; k < count; ++k) {
+    nearest = std::min(nearest, DistanceToSegment(x, corners[k - 1], corners[k]));
+  }
+  const Vector3d normal =
+      (corners[1] - corners[0]).cross(corners[count - 1] - corners[0]).normalized();
+  for (int k = 0; k < count; ++k) {
+    const Vector3d side = corners[(k + 1) % count] - corners[k];
+    if (!(normal.cross(side).dot(x - corners[k]) >= 0.0)) return nearest;
+  }
+  return std::min(nearest, std::abs(normal.dot(x - corners[0])));
+}
+
+void AssembleLocalSum(const MeshPair& pair, const GatheredFacets& gathered, const ScaledBall& ball,
+                      AssemblyScope scope, MembershipCache* cache, LocalSum* sum) {
+  Assembler(pair, gathered, ball, scope, cache, sum).Run();
+  FindNeighbors(sum);
+  FindVertexNormals(sum);
+}
+
+}  // namespace touchstone::internal

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/minkowski/local_surface_internal.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+// A side of a triangle, by its ends in order.
+struct TriangleSide {
+  int low, high;
+  int triangle, side;
+  bool rises;  // runs from low to high
+};
+
+}  // namespace
+
+void FindNeighbors(LocalSum* sum) {
+  std::vector<TriangleSide> sides;
+  sides.reserve(3 * sum->triangles.size());
+  for (int t = 0; t < static_cast<int>(sum->triangles.size()); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int u = sum->triangles[t][k], v = sum->triangles[t][(k + 1) % 3];
+      sides.push_back({std::min(u, v), std::max(u, v), t, k, u < v});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const TriangleSide& x, const TriangleSide& y) {
+    if (x.low != y.low) return x.low < y.low;
+    if (x.high != y.high) return x.high < y.high;
+    return 3 * x.triangle + x.side < 3 * y.triangle + y.side;
+  });
+  sum->neighbors.assign(sum->triangles.size(), {-1, -1, -1});
+  sum->is_border_vertex.assign(sum->vertices.size(), 0);
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end].low == sides[i].low &&
+           sides[end].high == sides[i].high) {
+      ++end;
+    }
+    if (end == i + 2 && sides[i].rises != sides[i + 1].rises) {
+      sum->neighbors[sides[i].triangle][sides[i].side] = sides[i + 1].triangle;
+      sum->neighbors[sides[i + 1].triangle][sides[i + 1].side] = sides[i].triangle;
+    } else {
+      sum->is_border_vertex[sides[i].low] = sum->is_border_vertex[sides[i].high] = 1;
+    }
+    i = end;
+  }
+}
+
+void FindVertexNormals(LocalSum* sum) {
+  sum->vertex_normals.assign(sum->vertices.size(), Vector3d::Zero());
+  std::vector<Vector3d> any(sum->vertices.size(), Vector3d::Zero());
+  for (const std::array<int, 3>& t : sum->triangles) {
+    // Of unit size: squares neither overflow nor vanish, whatever the scale of the bodies.
+    Vector3d u = sum->vertices[t[1]] - sum->vertices[t[0]];
+    Vector3d v = sum->vertices[t[2]] - sum->vertices[t[0]];
+    const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
+    if (!(size > 0.0)) continue;
+    u /= size, v /= size;
+    const Vector3d cross = u.cross(v);
+    const double twice = cross.norm();
+    if (!(twice > 0.0)) continue;
+    const Vector3d normal = cross / twice;
+    const Vector3d sides[3] = {u, v - u, -v};
+    for (int k = 0; k < 3; ++k) {
+      const double angle = std::atan2(twice, -sides[k].dot(sides[(k + 2) % 3]));
+      sum->vertex_normals[t[k]] += angle * normal;
+      any[t[k]] = normal;
+    }
+  }
+  for (std::size_t v = 0; v < sum->vertices.size(); ++v) {
+    Vector3d& normal = sum->vertex_normals[v];
+    const double length = normal.norm();
+    // Angles add up to a few units; a sum of so little has no direction.
+    normal = length > 1e-9 ? Vector3d(normal / length) : any[v];
+  }
+}
+
+}  // namespace touchstone::internal
