@@ -85,11 +85,4 @@ std::span<const std::string> ShapeNames() {
   return kNames;
 }
 
-std::vector<PaperScene> PaperScenes() {
-  return {{"cone/axes", NamedShape("cone", 1000), NamedShape("axes", 36)},
-          {"spoon/cup", NamedShape("spoon", 1300), NamedShape("cup", 1008)},
-          {"fish/torus", NamedShape("fish", 950), NamedShape("torus", 1600)},
-          {"torus/torus", NamedShape("torus", 2000), NamedShape("torus", 2000)}};
-}
-
 }  // namespace touchstone

@@ -59,13 +59,6 @@ Shape Spiked(int sides);
 Shape NamedShape(const std::string& name, int face_count);
 std::span<const std::string> ShapeNames();
 
-// The pairs of the paper's benchmarks, at its sizes.
-struct PaperScene {
-  std::string name;
-  Shape a, b;
-};
-std::vector<PaperScene> PaperScenes();
-
 }  // namespace touchstone
 
 #endif  // TOUCHSTONE_TOOLS_SHAPES_SHAPES_H_
