@@ -18,6 +18,12 @@ using Eigen::Vector3d;
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
+// Turns A a little at the start, so that no edges or faces of the two bodies stay parallel by
+// accident: cones have bases of 500 slivers in one plane.
+Matrix3d Tilted(const Matrix3d& rotation) {
+  return AngleAxisd(0.1, Vector3d(0.36, 0.48, 0.8)).toRotationMatrix() * rotation;
+}
+
 // The radius of a sphere round the middle of the shape's box that holds it.
 double BoundingRadius(const Shape& shape) {
   Vector3d low = shape.vertices[0], high = low;
@@ -48,8 +54,8 @@ PaperScene ConeAxes() {
   return {"cone-axes",
           Moved(NamedShape("cone", 1000), 1.0, {0, 0, -2}),
           NamedShape("axes", 36),
-          {Matrix3d::Identity(), from},
-          Vector3d::UnitY(),
+          {Tilted(Matrix3d::Identity()), from},
+          Vector3d(0.36, 0.8, 0.48),
           from,
           Vector3d(-2.5, 0.0, 0.0),
           kFullTurn};
@@ -70,7 +76,7 @@ PaperScene SpoonCup() {
 
 PaperScene FishTorus() {
   const Matrix3d upright =
-      AngleAxisd(-0.5 * std::numbers::pi, Vector3d::UnitY()).toRotationMatrix();
+      Tilted(AngleAxisd(-0.5 * std::numbers::pi, Vector3d::UnitY()).toRotationMatrix());
   const Vector3d middle(1.0, 0.0, 0.0);
   return {"fish-torus",
           NamedShape("fish", 950),
@@ -83,7 +89,8 @@ PaperScene FishTorus() {
 }
 
 PaperScene TorusTorus() {
-  const Matrix3d upright = AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitX()).toRotationMatrix();
+  const Matrix3d upright =
+      Tilted(AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitX()).toRotationMatrix());
   return {"torus-torus",
           NamedShape("torus", 2000),
           NamedShape("torus", 2000),

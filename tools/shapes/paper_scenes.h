@@ -20,8 +20,8 @@ namespace touchstone {
 // add up to kPaperSumRadius: M lies in a ball of that radius.
 //
 //   scene        faces        what A does
-//   cone-axes    1000 x 36    the cone slides along a bar to the corner, turning about the y axis
-//   spoon-cup    1300 x 1008  the spoon stands leaning in the cup and turns about its own axis
+//   cone-axes    1000 x 36    the cone slides along a bar to the corner, turning about an axis near
+//   y spoon-cup    1300 x 1008  the spoon stands leaning in the cup and turns about its own axis
 //   fish-torus   950 x 1600   the fish stands in the hole, into the tube, and turns about its axis
 //   torus-torus  2000 x 2000  one torus, linked with the other and into it, revolves round its axis
 struct PaperScene {
