@@ -11,16 +11,13 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "touchstone/core/base/vector_clones.h"
 
 namespace touchstone {
 
 inline constexpr int kLaneCount = 8;
-
-// A number of up to 32 that rides in the last bits of a float: heights keep their order up to
-// 2^-18 of their magnitude, and the largest brings its tag along.
-inline constexpr std::int32_t kTagMask = 31;
 
 class VectorLanes {
  public:
@@ -40,18 +37,23 @@ class VectorLanes {
   static TOUCHSTONE_INLINE VectorLanes Larger(const VectorLanes& a, const VectorLanes& b) {
     return VectorLanes(a.values_ > b.values_ ? a.values_ : b.values_);
   }
-  // Each number with the lane's tag in its last bits.
-  TOUCHSTONE_INLINE VectorLanes Tagged(const std::int32_t* tags) const {
-    Integers bits, tag;
+  // Each number with a tag in its last bits, those of kMask: first, first + 1, ... by lane. Heights
+  // keep their order up to that, and the largest brings its tag along.
+  template <std::int32_t kMask>
+  TOUCHSTONE_INLINE VectorLanes Tagged(std::int32_t first) const {
+    Integers bits;
     std::memcpy(&bits, &values_, sizeof bits);
-    std::memcpy(&tag, tags, sizeof tag);
-    bits = (bits & ~kTagMask) | tag;
+    bits = (bits & ~kMask) | (kNumbers + first);
     VectorLanes lanes;
     std::memcpy(&lanes.values_, &bits, sizeof bits);
     return lanes;
   }
   // The tag of the largest number.
+  template <std::int32_t kMask>
   TOUCHSTONE_INLINE std::int32_t TagOfLargest() const {
+    return std::bit_cast<std::int32_t>(Largest()) & kMask;
+  }
+  TOUCHSTONE_INLINE float Largest() const {
     Four low, high;
     std::memcpy(&low, &values_, sizeof low);
     std::memcpy(&high, reinterpret_cast<const char*>(&values_) + sizeof low, sizeof high);
@@ -59,13 +61,18 @@ class VectorLanes {
     const Four turned = __builtin_shufflevector(low, low, 2, 3, 0, 1);
     low = low > turned ? low : turned;
     const float a = low[0], b = low[1];
-    return std::bit_cast<std::int32_t>(a > b ? a : b) & kTagMask;
+    return a > b ? a : b;
+  }
+  // All numbers but that of one lane, if it is one of the eight.
+  TOUCHSTONE_INLINE VectorLanes Except(std::int32_t lane) const {
+    return VectorLanes(kNumbers == lane ? Values{} - std::numeric_limits<float>::max() : values_);
   }
 
  private:
   using Values = float __attribute__((vector_size(32)));
   using Integers = std::int32_t __attribute__((vector_size(32)));
   using Four = float __attribute__((vector_size(16)));
+  static constexpr Integers kNumbers = {0, 1, 2, 3, 4, 5, 6, 7};
 
   VectorLanes() = default;
   TOUCHSTONE_INLINE explicit VectorLanes(const Values& values) : values_(values) {}
@@ -91,15 +98,23 @@ class ScalarLanes {
   static ScalarLanes Larger(const ScalarLanes& a, const ScalarLanes& b) {
     return Map([&](int i) { return a.values_[i] > b.values_[i] ? a.values_[i] : b.values_[i]; });
   }
-  ScalarLanes Tagged(const std::int32_t* tags) const {
+  template <std::int32_t kMask>
+  ScalarLanes Tagged(std::int32_t first) const {
     return Map([&](int i) {
-      return std::bit_cast<float>((std::bit_cast<std::int32_t>(values_[i]) & ~kTagMask) | tags[i]);
+      return std::bit_cast<float>((std::bit_cast<std::int32_t>(values_[i]) & ~kMask) | (first + i));
     });
   }
+  template <std::int32_t kMask>
   std::int32_t TagOfLargest() const {
+    return std::bit_cast<std::int32_t>(Largest()) & kMask;
+  }
+  float Largest() const {
     float largest = values_[0];
     for (const float value : values_) largest = value > largest ? value : largest;
-    return std::bit_cast<std::int32_t>(largest) & kTagMask;
+    return largest;
+  }
+  ScalarLanes Except(std::int32_t lane) const {
+    return Map([&](int i) { return i == lane ? -std::numeric_limits<float>::max() : values_[i]; });
   }
 
  private:

@@ -93,7 +93,7 @@ class Query {
   void Finish() {
     result_.interior_p = m_.interior_p();
     result_.interior_q = m_.interior_q();
-    result_.interior_difference = m_.c() / m_.scale();
+    result_.interior_difference = m_.Unscale(m_.c());
     result_.exact_signs = signs_.exact_count();
     if (options_.common_point) {
       result_.common_point = FindCommonPoint(&signs_, result_.certificate);
@@ -131,7 +131,9 @@ class Query {
 
   void RunPortal() {
     result_.phase = Phase::kPortal;
-    Proposal proposal = SearchPortal(m_, options_.early_exit, &log_.of(Phase::kPortal));
+    const bool is_warm = cache_ != nullptr && HoldsTriangle(m_, *cache_);
+    Proposal proposal = SearchPortal(m_, options_.early_exit, &log_.of(Phase::kPortal),
+                                     is_warm ? &cache_->triangle : nullptr);
     Settle(&proposal);
     Remember(proposal);
     ReportFinalClass();

@@ -101,7 +101,7 @@ std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d
                                              CornerPair* start, bool scan) {
   const MinkowskiDifference& m = signs->difference();
   const Eigen::Vector3d toward_q = -m.DirectionToQ(direction);
-  long steps = 0;
+  int steps = 0;
   const auto peak_p = m.p().support_table().Climb(start->p, direction, &steps);
   const auto peak_q = m.q().support_table().Climb(start->q, toward_q, &steps);
   const CornerPair support{peak_p.corner, peak_q.corner};

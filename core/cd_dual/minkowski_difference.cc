@@ -2,40 +2,10 @@
 #include "touchstone/core/cd_dual/minkowski_difference.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstdint>
 
 #include "touchstone/core/convex/support.h"
 
 namespace touchstone {
-namespace {
-
-// A row of R has length at most 1 + 1e-6, so |(R x)_i| <= (1 + 1e-6) sqrt(3) max |x_j| < 1.75 max.
-constexpr double kRowFactor = 1.75;
-
-}  // namespace
-
-MinkowskiDifference::MinkowskiDifference(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
-                                         const RelativePose& pose)
-    : p_(p), q_(q), pose_(pose) {
-  const double size = p.max_coordinate() + kRowFactor * q.max_coordinate() +
-                      pose.translation().cwiseAbs().maxCoeff();
-  // 2^-e for a size in [2^(e-1), 2^e): sizes are normal numbers within 1e-100 and 1e101.
-  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52;
-  scale_ = std::bit_cast<double>((2045 - exponent) << 52);
-  size_ = size * scale_;
-  // R b + t: three products and three sums, each term passing at most four roundings, then one more
-  // for a - (...): (1 + u)^5 - 1 < 5.01 u of the sum of absolute terms, which is at most `size`.
-  // Scaling is exact but for underflow, which is below 2^-1022 and disappears in the
-  // rounded-up 5.1. The entries of a rounded relative pose add their own errors.
-  coordinate_error_ =
-      5.1 * kRoundingUnit * size_ + scale_ * (3.01 * pose.rotation_error() * q.max_coordinate() +
-                                              1.01 * pose.translation_error());
-  ChooseInterior(0, 0);
-}
-
 Eigen::Vector3d MinkowskiDifference::Difference(VertexPair to, VertexPair from,
                                                 double* error) const {
   const Eigen::Vector3d in_p = PointOfP(to.p) - PointOfP(from.p);
@@ -63,34 +33,25 @@ VertexPair MinkowskiDifference::Support(const Eigen::Vector3d& direction, Vertex
           SupportVertex(q_, -DirectionToQ(direction), hint.q, &counts->climb_steps)};
 }
 
-void MinkowskiDifference::ChooseInterior(int i, int j) {
-  interior_p_ = i;
-  interior_q_ = j;
-  c_ = Point(kInteriorDifference);
-  c_norm_ = c_.norm();
-}
-
 void MinkowskiDifference::PlaceInterior(const Eigen::Vector3d& c) {
   c_ = c;
   c_norm_ = c.norm();
 }
 
-bool ChooseInteriorDifference(MinkowskiDifference* m) {
-  const double smaller = std::min(m->p().diameter_bound(), m->q().diameter_bound());
-  if (m->Unscale(m->c_norm()) >= 1e-3 * smaller) return true;
+bool MinkowskiDifference::ChooseLongestInterior() {
   int best_i = 0, best_j = 0;
-  double best = m->c_norm();
+  double best = -1.0;
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
-      m->ChooseInterior(i, j);
-      if (m->c_norm() > best) {
-        best = m->c_norm();
+      ChooseInterior(i, j);
+      if (c_norm_ > best) {
+        best = c_norm_;
         best_i = i;
         best_j = j;
       }
     }
   }
-  m->ChooseInterior(best_i, best_j);
+  ChooseInterior(best_i, best_j);
   return false;
 }
 

@@ -3,6 +3,9 @@
 #define TOUCHSTONE_CORE_CD_DUAL_MINKOWSKI_DIFFERENCE_H_
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/cd_dual/result.h"
@@ -31,8 +34,8 @@ struct CornerPair {
 // Holds references: a view for the length of one query.
 class MinkowskiDifference {
  public:
-  MinkowskiDifference(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
-                      const RelativePose& pose);
+  inline MinkowskiDifference(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
+                             const RelativePose& pose);
   MinkowskiDifference(const ConvexPolyhedron&, const ConvexPolyhedron&, RelativePose&&) = delete;
 
   const ConvexPolyhedron& p() const { return p_; }
@@ -52,7 +55,7 @@ class MinkowskiDifference {
                      (pose_.rotation() * Eigen::Vector3d(b.x, b.y, b.z) + pose_.translation()));
   }
   VertexPair Vertices(CornerPair pair) const {
-    return {p_.support_table().corner(pair.p).vertex, q_.support_table().corner(pair.q).vertex};
+    return {p_.support_table().vertex(pair.p), q_.support_table().vertex(pair.q)};
   }
   CornerPair Corners(VertexPair pair) const {
     return {p_.support_table().CornerOfVertex(pair.p), q_.support_table().CornerOfVertex(pair.q)};
@@ -82,8 +85,11 @@ class MinkowskiDifference {
   int interior_p() const { return interior_p_; }
   int interior_q() const { return interior_q_; }
   // Takes c from interior points i of P and j of Q.
-  void ChooseInterior(int i, int j);
-  // Takes a point of M as c, scaled: for searches alone, since proofs know c by its interior points.
+  inline void ChooseInterior(int i, int j);
+  // Takes the longest c of the four; false.
+  bool ChooseLongestInterior();
+  // Takes a point of M as c, scaled: for searches alone, since proofs know c by its interior
+  // points.
   void PlaceInterior(const Eigen::Vector3d& c);
 
   const Eigen::Vector3d& PointOfP(int v) const {
@@ -95,15 +101,18 @@ class MinkowskiDifference {
 
   // The power of two by which lengths were multiplied.
   double scale() const { return scale_; }
-  double Unscale(double length) const { return length / scale_; }
+  double Unscale(double length) const { return length * unscale_; }
+  Eigen::Vector3d Unscale(const Eigen::Vector3d& x) const { return x * unscale_; }
   // The scaled size of the pair: max |coordinate of P| + max |coordinate of R Q| + |t|, at most 1.
   double size() const { return size_; }
 
  private:
+  static constexpr double kRowFactor = 1.75;
+
   const ConvexPolyhedron& p_;
   const ConvexPolyhedron& q_;
   const RelativePose& pose_;
-  double scale_;
+  double scale_, unscale_;  // one over the other, exactly
   double size_;
   double coordinate_error_;
   int interior_p_ = 0;
@@ -116,7 +125,42 @@ class MinkowskiDifference {
 // difference of the central points serves unless it is shorter than a thousandth of the smaller
 // body; then the longest of the four does (they are not all o, since the two points of a body
 // differ). Returns whether the central points served.
-bool ChooseInteriorDifference(MinkowskiDifference* m);
+inline bool ChooseInteriorDifference(MinkowskiDifference* m);
+
+// Part of every query: inline for its caller's sake.
+
+MinkowskiDifference::MinkowskiDifference(const ConvexPolyhedron& p, const ConvexPolyhedron& q,
+                                         const RelativePose& pose)
+    : p_(p), q_(q), pose_(pose) {
+  // A row of R has length at most 1 + 1e-6, so |(R x)_i| <= (1 + 1e-6) sqrt(3) max |x_j|.
+  const double size = p.max_coordinate() + kRowFactor * q.max_coordinate() +
+                      pose.translation().cwiseAbs().maxCoeff();
+  // 2^-e for a size in [2^(e-1), 2^e): sizes are normal numbers within 1e-100 and 1e101.
+  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52;
+  scale_ = std::bit_cast<double>((2045 - exponent) << 52);
+  unscale_ = std::bit_cast<double>((exponent + 1) << 52);
+  size_ = size * scale_;
+  // R b + t: three products and three sums, each term passing at most four roundings, then one more
+  // for a - (...): (1 + u)^5 - 1 < 5.01 u of the sum of absolute terms, which is at most `size`.
+  // Scaling is exact but for underflow, which is below 2^-1022 and disappears in the
+  // rounded-up 5.1. The entries of a rounded relative pose add their own errors.
+  coordinate_error_ =
+      5.1 * kRoundingUnit * size_ + scale_ * (3.01 * pose.rotation_error() * q.max_coordinate() +
+                                              1.01 * pose.translation_error());
+  ChooseInterior(0, 0);
+}
+
+void MinkowskiDifference::ChooseInterior(int i, int j) {
+  interior_p_ = i;
+  interior_q_ = j;
+  c_ = Point(kInteriorDifference);
+  c_norm_ = c_.norm();
+}
+
+bool ChooseInteriorDifference(MinkowskiDifference* m) {
+  const double smaller = std::min(m->p().diameter_bound(), m->q().diameter_bound());
+  return m->c_norm() >= 1e-3 * (m->scale() * smaller) || m->ChooseLongestInterior();
+}
 
 }  // namespace touchstone
 

@@ -54,9 +54,16 @@ class PortalSearch {
     ++supports_;
     Aim(model, normal, reach_p, reach_q);
     if (Surround() || Discover()) Refine();
-    counts->support_calls += supports_;
-    counts->climb_steps += climb_steps_;
-    counts->faces_visited += triangles_;
+    Count(counts);
+  }
+
+  // From a triangle; false, with nothing proposed, where the ray does not cross it.
+  TOUCHSTONE_INLINE bool RunFrom(const std::array<CornerPair, 3>& start, PhaseCounts* counts) {
+    for (int i = 0; i < 3; ++i) x_[i] = frame_.Point(start[i].p, start[i].q);
+    if (!SurroundsAxis()) return false;
+    Refine();
+    Count(counts);
+    return true;
   }
 
  private:
@@ -109,8 +116,11 @@ class PortalSearch {
     x_[0] = base_;
     stopped_ = !Probe(base_n_.x + back.x + across.x, base_n_.y + back.y + across.y, 1.0, &x_[1]) ||
                !Probe(base_n_.x + back.x - across.x, base_n_.y + back.y - across.y, 1.0, &x_[2]);
-    return !stopped_ && Turn(x_[0], x_[1]) > 0.0 && Turn(x_[1], x_[2]) > 0.0 &&
-           Turn(x_[2], x_[0]) > 0.0;
+    return !stopped_ && SurroundsAxis();
+  }
+
+  TOUCHSTONE_INLINE bool SurroundsAxis() const {
+    return Turn(x_[0], x_[1]) > 0.0 && Turn(x_[1], x_[2]) > 0.0 && Turn(x_[2], x_[0]) > 0.0;
   }
 
   // Finds a triangle around the axis from any base: two points with the axis to their left, then
@@ -178,7 +188,13 @@ class PortalSearch {
     return nx * (w.x - x_[0].x) + ny * (w.y - x_[0].y) + nz * (w.z - x_[0].z) > 0.0;
   }
 
-  void Propose(Proposal::Kind kind) {
+  TOUCHSTONE_INLINE void Count(PhaseCounts* counts) const {
+    counts->support_calls += supports_;
+    counts->climb_steps += climb_steps_;
+    counts->faces_visited += triangles_;
+  }
+
+  TOUCHSTONE_INLINE void Propose(Proposal::Kind kind) {
     proposal_.kind = kind;
     NameCorners();
     for (int i = 0; i < 3; ++i) {
@@ -187,7 +203,7 @@ class PortalSearch {
     }
   }
 
-  void NameCorners() {
+  TOUCHSTONE_INLINE void NameCorners() {
     proposal_.has_triangle = triangles_ > 0;
     for (int i = 0; i < 3; ++i) proposal_.corners[i] = {x_[i].p, x_[i].q};
   }
@@ -202,15 +218,14 @@ class PortalSearch {
   Symmetric2 step_;
   std::array<FramePoint, 3> x_;
   bool stopped_ = false;
-  int supports_ = 0, triangles_ = 0;
-  long climb_steps_ = 0;
+  int supports_ = 0, triangles_ = 0, climb_steps_ = 0;
 };
 
 }  // namespace
 
 TOUCHSTONE_VECTOR_CLONES
-void SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts,
-                  Proposal* proposal) {
+static void SearchCold(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts,
+                       Proposal* proposal) {
   const bool is_central = m.interior_p() == 0 && m.interior_q() == 0;
   const bool bounds_serve = early_exit && is_central;
   if (bounds_serve && EllipsoidModel::BallsAreApart(m)) {
@@ -247,9 +262,18 @@ void SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* co
   PortalSearch(m, early_exit, proposal).Run(model, normal, reach_p, reach_q, first, counts);
 }
 
-Proposal SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts) {
+TOUCHSTONE_VECTOR_CLONES
+static bool SearchFrom(const std::array<CornerPair, 3>& start, const MinkowskiDifference& m,
+                       bool early_exit, PhaseCounts* counts, Proposal* proposal) {
+  return PortalSearch(m, early_exit, proposal).RunFrom(start, counts);
+}
+
+Proposal SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts,
+                      const std::array<CornerPair, 3>* start) {
   Proposal proposal;
-  SearchPortal(m, early_exit, counts, &proposal);
+  if (start == nullptr || !SearchFrom(*start, m, early_exit, counts, &proposal)) {
+    SearchCold(m, early_exit, counts, &proposal);
+  }
   return proposal;
 }
 

@@ -34,8 +34,10 @@ struct Proposal {
 // along its outward normal, and replaces a vertex, until nothing lies beyond. With `early_exit`,
 // stops at the first direction with o on its outer side and at the first triangle with o on its
 // inner side. Stops after a fixed number of rounds at the latest (rounding may go in circles on
-// ties), proposing the triangle it has. Complexity: about a dozen support pairs.
-Proposal SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts);
+// ties), proposing the triangle it has. `start`, if given, are corners that M has: the search
+// begins there if the ray crosses their triangle. Complexity: about a dozen support pairs.
+Proposal SearchPortal(const MinkowskiDifference& m, bool early_exit, PhaseCounts* counts,
+                      const std::array<CornerPair, 3>* start = nullptr);
 
 }  // namespace touchstone
 

@@ -53,27 +53,18 @@ class RayFrame {
 
   // A vertex of M that is extreme along (nx, ny, nz), or nearly: one look at each body's table.
   TOUCHSTONE_INLINE FramePoint Look(double nx, double ny, double nz) const {
-    const auto along = [&](const Eigen::Matrix3d& axes, int i) {
-      return nx * axes(i, 0) + ny * axes(i, 1) + nz * axes(i, 2);
-    };
-    const int p = table_p_.Look(along(in_p_, 0), along(in_p_, 1), along(in_p_, 2));
-    const int q = table_q_.Look(-along(in_q_, 0), -along(in_q_, 1), -along(in_q_, 2));
-    return Point(p, q);
+    const Eigen::Vector3d p = Along(in_p_, nx, ny, nz), q = Along(in_q_, nx, ny, nz);
+    return Point(table_p_.Look(p[0], p[1], p[2]), table_q_.Look(-q[0], -q[1], -q[2]));
   }
 
   TOUCHSTONE_INLINE FramePoint Point(int p, int q) const {
     const SupportTable::Corner& a = table_p_.corner(p);
     const SupportTable::Corner& b = table_q_.corner(q);
-    // In an order with short chains; the scale is a power of two, so that it rounds nothing.
-    const auto coordinate = [&](int i) {
-      return ((point_p_(0, i) * a.x + point_p_(1, i) * a.y) + (point_p_(2, i) * a.z - offset_[i])) -
-             ((point_q_(0, i) * b.x + point_q_(1, i) * b.y) + point_q_(2, i) * b.z);
-    };
-    return {p, q, coordinate(0), coordinate(1), coordinate(2)};
+    return {p, q, Coordinate(0, a, b), Coordinate(1, a, b), Coordinate(2, a, b)};
   }
 
   // From `start` on, by climbs that no neighbour beats.
-  FramePoint Climb(double nx, double ny, double nz, const FramePoint& start, long* steps) const {
+  FramePoint Climb(double nx, double ny, double nz, const FramePoint& start, int* steps) const {
     const Eigen::Vector3d n(nx, ny, nz);
     return Point(table_p_.Climb(start.p, in_p_ * n, steps).corner,
                  table_q_.Climb(start.q, -(in_q_ * n), steps).corner);
@@ -88,6 +79,20 @@ class RayFrame {
   const Eigen::Matrix3d& in_q() const { return in_q_; }
 
  private:
+  static TOUCHSTONE_INLINE Eigen::Vector3d Along(const Eigen::Matrix3d& axes, double x, double y,
+                                                 double z) {
+    return {x * axes(0, 0) + y * axes(0, 1) + z * axes(0, 2),
+            x * axes(1, 0) + y * axes(1, 1) + z * axes(1, 2),
+            x * axes(2, 0) + y * axes(2, 1) + z * axes(2, 2)};
+  }
+
+  // In an order with short chains; the scale is a power of two, so that it rounds nothing.
+  TOUCHSTONE_INLINE double Coordinate(int i, const SupportTable::Corner& a,
+                                      const SupportTable::Corner& b) const {
+    return ((point_p_(0, i) * a.x + point_p_(1, i) * a.y) + (point_p_(2, i) * a.z - offset_[i])) -
+           ((point_q_(0, i) * b.x + point_q_(1, i) * b.y) + point_q_(2, i) * b.z);
+  }
+
   const SupportTable& table_p_;
   const SupportTable& table_q_;
   Eigen::Matrix3d in_p_;               // columns: the frame's axes in P

@@ -103,10 +103,10 @@ struct PhaseReport {
 };
 
 struct PhaseCounts {
-  long faces_visited = 0;  // signed distances evaluated; for a portal search, triangles
-  long support_calls = 0;
-  long climb_steps = 0;
-  long arc_tests = 0;
+  int faces_visited = 0;  // signed distances evaluated; for a portal search, triangles
+  int support_calls = 0;
+  int climb_steps = 0;
+  int arc_tests = 0;
 };
 
 enum class Termination {

@@ -7,8 +7,8 @@
 namespace touchstone {
 
 int SupportVertex(const ConvexPolyhedron& body, const Eigen::Vector3d& direction, int start,
-                  long* climb_steps) {
-  long steps = 0;
+                  int* climb_steps) {
+  int steps = 0;
   const int vertex = body.support_table().Find(direction, start, &steps);
   if (climb_steps != nullptr) *climb_steps += steps;
   return vertex;

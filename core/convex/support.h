@@ -18,7 +18,7 @@ namespace touchstone {
 // safe: one that is zero or not finite gives some vertex. Complexity: O(n) at worst; near-constant
 // from the direction table.
 int SupportVertex(const ConvexPolyhedron& body, const Eigen::Vector3d& direction, int start = -1,
-                  long* climb_steps = nullptr);
+                  int* climb_steps = nullptr);
 
 // The same by looking at every vertex: the twin that SupportVertex is tested against. Ties go to
 // the smallest index.

@@ -64,13 +64,6 @@ class CornerGraph {
 
 void SupportTable::Build(const ConvexPolyhedronData& data) {
   AddCorners(data);
-  const auto offset = [this](const void* member) {
-    return static_cast<std::int32_t>(static_cast<const char*>(member) -
-                                     reinterpret_cast<const char*>(this));
-  };
-  hot_bytes_ =
-      offset(scan_count_ > 0 ? static_cast<const void*>(&scan_corners_[corner_count_ - 1] + 1)
-                             : &scan_[0]);
   if (scan_count_ == 0) FillCells();
 }
 
@@ -80,13 +73,15 @@ void SupportTable::AddCorners(const ConvexPolyhedronData& data) {
   center_ = data.interior[0];
   corner_of_vertex_.assign(n, -1);
   std::vector<Corner> corners;
+  std::vector<std::int32_t> vertices;
   double extent = 0.0;
   for (int v = 0; v < n; ++v) {
     if (!graph.IsCorner(v)) continue;
     const Eigen::Vector3d& x = data.vertices[v];
     extent = std::max(extent, (x - center_).cwiseAbs().maxCoeff());
     corner_of_vertex_[v] = static_cast<std::int32_t>(corners.size());
-    corners.push_back({x[0], x[1], x[2], v, -1});
+    corners.push_back({x[0], x[1], x[2]});
+    vertices.push_back(v);
   }
   corner_count_ = static_cast<std::int32_t>(corners.size());
   // Extents lie within 1e-117 and 1e101.
@@ -95,22 +90,22 @@ void SupportTable::AddCorners(const ConvexPolyhedronData& data) {
   lane_scale_ = std::ldexp(1.0, -exponent);
 
   if (corner_count_ <= kScanLimit) {
-    std::copy(corners.begin(), corners.end(), scan_corners_.begin());
-    FillScan();
+    FillScan(corners, vertices);
   } else {
+    blocks_.resize(corner_count_);
     int block_count = corner_count_;
-    for (Corner& corner : corners) {
-      const int spare = graph.bends(corner.vertex) - kOwnNeighbors;
-      if (spare <= 0) continue;
-      corner.more_blocks = block_count;
+    for (int i = 0; i < corner_count_; ++i) {
+      const int spare = std::max(graph.bends(vertices[i]) - kOwnNeighbors, 0);
+      blocks_[i].corner = corners[i];
+      blocks_[i].vertex = vertices[i];
+      blocks_[i].more_blocks = spare > 0 ? block_count : -1;
       block_count += (spare + kOwnNeighbors - 1) / kOwnNeighbors;
     }
     blocks_.resize(block_count);
-    for (int i = 0; i < corner_count_; ++i) blocks_[i].corner = corners[i];
   }
   std::vector<int> neighbors;
   for (int i = 0; i < corner_count_; ++i) {
-    const int v = corners[i].vertex;
+    const int v = vertices[i];
     neighbors.clear();
     for (int k = data.vertex_begin[v]; k < data.vertex_begin[v + 1]; ++k) {
       if (!graph.IsBend(k)) continue;
@@ -134,33 +129,38 @@ void SupportTable::AddCorners(const ConvexPolyhedronData& data) {
   }
 }
 
-void SupportTable::PutLane(Lanes* lanes, int lane, int i) const {
-  const Corner& c = corner(i);
-  lanes->x[lane] = static_cast<float>(lane_scale_ * (c.x - center_[0]));
-  lanes->y[lane] = static_cast<float>(lane_scale_ * (c.y - center_[1]));
-  lanes->z[lane] = static_cast<float>(lane_scale_ * (c.z - center_[2]));
-  lanes->link[lane] = i;
+void SupportTable::PutLane(Lanes* lanes, int lane, const Corner& corner) const {
+  lanes->x[lane] = static_cast<float>(lane_scale_ * (corner.x - center_[0]));
+  lanes->y[lane] = static_cast<float>(lane_scale_ * (corner.y - center_[1]));
+  lanes->z[lane] = static_cast<float>(lane_scale_ * (corner.z - center_[2]));
+}
+
+void SupportTable::PutLink(Block* block, int lane, int i) const {
+  PutLane(&block->lanes, lane, corner(i));
+  block->link[lane] = i;
 }
 
 void SupportTable::FillBlocks(int corner, std::span<const int> neighbors) {
   const int count = static_cast<int>(neighbors.size());
   for (int first = 0; first < count; first += kOwnNeighbors) {
     const int further = first / kOwnNeighbors;
-    Lanes* lanes =
-        &blocks_[further == 0 ? corner : blocks_[corner].corner.more_blocks + further - 1].lanes;
-    PutLane(lanes, 0, corner);
+    Block* block = &blocks_[further == 0 ? corner : blocks_[corner].more_blocks + further - 1];
+    PutLink(block, 0, corner);
     for (int lane = 1; lane < kLaneCount; ++lane) {
       const int neighbor = first + lane - 1;
-      PutLane(lanes, lane, neighbors[neighbor < count ? neighbor : first]);
+      PutLink(block, lane, neighbors[neighbor < count ? neighbor : first]);
     }
-    if (further > 0) lanes->link[0] = (count - first + kOwnNeighbors - 1) / kOwnNeighbors;
+    if (further > 0) block->link[0] = (count - first + kOwnNeighbors - 1) / kOwnNeighbors;
   }
 }
 
-void SupportTable::FillScan() {
+void SupportTable::FillScan(std::span<const Corner> corners,
+                            std::span<const std::int32_t> vertices) {
   scan_count_ = (corner_count_ + kLaneCount - 1) / kLaneCount;
+  std::copy(corners.begin(), corners.end(), scan_corners_.begin());
+  std::copy(vertices.begin(), vertices.end(), scan_vertices_.begin());
   for (int i = 0; i < scan_count_ * kLaneCount; ++i) {
-    PutLane(&scan_[i / kLaneCount], i % kLaneCount, std::min(i, corner_count_ - 1));
+    PutLane(&scan_lanes_[i / kLaneCount], i % kLaneCount, corners[std::min(i, corner_count_ - 1)]);
   }
 }
 
@@ -169,15 +169,14 @@ void SupportTable::FillCells() {
   resolution_ = std::min(resolution_, kMaxResolution);
   half_resolution_ = 0.5F * (1.0F - 0x1p-18F) * static_cast<float>(resolution_);
   const std::size_t cell_count = 2 * static_cast<std::size_t>(resolution_) * resolution_;
-  is_wide_ = corner_count_ > 0x10000;
-  is_wide_ ? wide_cells_.resize(cell_count) : cells_.resize(cell_count);
+  is_wide() ? wide_cells_.resize(cell_count) : cells_.resize(cell_count);
   const auto get = [&](std::size_t cell) -> int {
-    return is_wide_ ? wide_cells_[cell] : cells_[cell];
+    return is_wide() ? wide_cells_[cell] : cells_[cell];
   };
   // A cell is only where climbs begin, so its corner need not be extreme. What one cell leaves of
   // its share of looks others may use; together they are linear, however many edges a corner has.
-  long budget = static_cast<long>(blocks_.size()), steps = 0;
-  int corner = 0;
+  long budget = static_cast<long>(blocks_.size());
+  int corner = 0, steps = 0;
   std::size_t cell = 0;
   for (int lower = 0; lower < 2; ++lower) {
     for (int j = 0; j < resolution_; ++j) {
@@ -191,7 +190,7 @@ void SupportTable::FillCells() {
         if (budget > 0) {
           corner = ClimbScaled(corner, x, y, lower == 0 ? z : -z, &budget, &steps).corner;
         }
-        if (is_wide_) {
+        if (is_wide()) {
           wide_cells_[cell] = corner;
         } else {
           cells_[cell] = static_cast<std::uint16_t>(corner);
@@ -222,45 +221,51 @@ double SupportTable::Height(const Corner& c, double x, double y, double z) const
 
 template <class Visit>
 int SupportTable::VisitRivals(int corner, float x, float y, float z, Visit visit) const {
+  using L = VectorLanes;
   float heights[kLaneCount];
-  const auto visit_lanes = [&](const Lanes& lanes, float low, int first_lane) {
-    unsigned rivals = 0;
-    for (int k = first_lane; k < kLaneCount; ++k) {
-      rivals |= static_cast<unsigned>(heights[k] >= low) << k;
-    }
-    for (; rivals != 0; rivals &= rivals - 1) {
-      const int rival = lanes.link[std::countr_zero(rivals)];
-      if (rival != corner) visit(rival);
+  // Calls visit_lane for every lane from `first` on that is at least as high as `low`.
+  const auto visit_lanes = [&](const Lanes& lanes, float low, int first, auto visit_lane) {
+    Heights<L>(lanes, x, y, z).Store(heights);
+    for (int k = first; k < kLaneCount; ++k) {
+      if (heights[k] >= low) visit_lane(k);
     }
   };
   if (scan_count_ > 0) {
-    const Lanes& own = scan_[corner / kLaneCount];
+    const Lanes& own = scan_lanes_[corner / kLaneCount];
     const int lane = corner % kLaneCount;
     const float low = x * own.x[lane] + y * own.y[lane] + z * own.z[lane] - kSlack;
+    L top = Heights<L>(scan_lanes_[0], x, y, z).Except(corner);
+    for (int i = 1; i < scan_count_; ++i) {
+      top = L::Larger(top, Heights<L>(scan_lanes_[i], x, y, z).Except(corner - i * kLaneCount));
+    }
+    if (top.Largest() < low) return scan_count_;
     for (int i = 0; i < scan_count_; ++i) {
-      Heights<VectorLanes>(scan_[i], x, y, z).Store(heights);
-      visit_lanes(scan_[i], low, 0);
+      visit_lanes(scan_lanes_[i], low, 0, [&](int k) {
+        const int rival = std::min(i * kLaneCount + k, corner_count_ - 1);
+        if (rival != corner) visit(rival);
+      });
     }
     return scan_count_;
   }
   const Block& block = blocks_[corner];
-  Heights<VectorLanes>(block.lanes, x, y, z).Store(heights);
-  const float low = heights[0] - kSlack;
-  visit_lanes(block.lanes, low, 1);
-  if (block.corner.more_blocks < 0) return 1;
-  const Block* more = &blocks_[block.corner.more_blocks];
-  const int count = more->lanes.link[0];
-  for (int i = 0; i < count; ++i) {
-    Heights<VectorLanes>(more[i].lanes, x, y, z).Store(heights);
-    visit_lanes(more[i].lanes, low, 1);
-  }
+  const Lanes& own = block.lanes;
+  const float low = x * own.x[0] + y * own.y[0] + z * own.z[0] - kSlack;
+  const auto visit_block = [&](const Block& from) {
+    if (Heights<L>(from.lanes, x, y, z).Except(0).Largest() < low) return;
+    visit_lanes(from.lanes, low, 1, [&](int k) { visit(from.link[k]); });
+  };
+  visit_block(block);
+  if (block.more_blocks < 0) return 1;
+  const Block* more = &blocks_[block.more_blocks];
+  const int count = more->link[0];
+  for (int i = 0; i < count; ++i) visit_block(more[i]);
   return 1 + count;
 }
 
 // Ends, because each move strictly raises the height, and the height of a corner is one number.
 TOUCHSTONE_VECTOR_CLONES
 SupportTable::Peak SupportTable::ClimbScaled(int start, double x, double y, double z, long* budget,
-                                             long* steps) const {
+                                             int* steps) const {
   const auto fx = static_cast<float>(x), fy = static_cast<float>(y), fz = static_cast<float>(z);
   Peak peak{start, false};
   double height = Height(corner(start), x, y, z);
@@ -284,7 +289,7 @@ SupportTable::Peak SupportTable::ClimbScaled(int start, double x, double y, doub
 }
 
 SupportTable::Peak SupportTable::Climb(int start, const Eigen::Vector3d& direction,
-                                       long* steps) const {
+                                       int* steps) const {
   double x = direction[0], y = direction[1], z = direction[2];
   double sum = std::abs(x) + std::abs(y) + std::abs(z);
   if (!(sum > 0x1p-1000 && sum < 0x1p1000)) {
@@ -297,10 +302,10 @@ SupportTable::Peak SupportTable::Climb(int start, const Eigen::Vector3d& directi
 }
 
 TOUCHSTONE_VECTOR_CLONES
-int SupportTable::Find(const Eigen::Vector3d& direction, int start, long* steps) const {
+int SupportTable::Find(const Eigen::Vector3d& direction, int start, int* steps) const {
   const int from =
       start >= 0 ? corner_of_vertex_[start] : Look(direction[0], direction[1], direction[2]);
-  return corner(Climb(from, direction, steps).corner).vertex;
+  return vertex(Climb(from, direction, steps).corner);
 }
 
 std::size_t SupportTable::heap_bytes() const {

@@ -37,8 +37,6 @@ class SupportTable {
   // A corner of the body, as doubles.
   struct Corner {
     double x, y, z;
-    std::int32_t vertex;       // of the body
-    std::int32_t more_blocks;  // -1, or the first of its further blocks
   };
 
   SupportTable() = default;
@@ -50,6 +48,10 @@ class SupportTable {
   int corner_count() const { return corner_count_; }
   TOUCHSTONE_INLINE const Corner& corner(int i) const {
     return scan_count_ > 0 ? scan_corners_[i] : blocks_[i].corner;
+  }
+  // The vertex of the body that it is.
+  TOUCHSTONE_INLINE int vertex(int i) const {
+    return scan_count_ > 0 ? scan_vertices_[i] : blocks_[i].vertex;
   }
   // The corner that is vertex v, or one near it.
   int CornerOfVertex(int v) const { return corner_of_vertex_[v]; }
@@ -70,15 +72,17 @@ class SupportTable {
     bool certain;
   };
   // From `start` to a corner that no neighbour beats in doubles; adds the moves to *steps.
-  Peak Climb(int start, const Eigen::Vector3d& direction, long* steps) const;
+  Peak Climb(int start, const Eigen::Vector3d& direction, int* steps) const;
 
   // The vertex found from the vertex `start` (-1: from the table); adds the moves to *steps.
-  int Find(const Eigen::Vector3d& direction, int start, long* steps) const;
+  int Find(const Eigen::Vector3d& direction, int start, int* steps) const;
 
   // Asks for the memory that any query will touch.
   TOUCHSTONE_INLINE void Prefetch() const {
-    const auto* first = reinterpret_cast<const char*>(this);
-    for (std::int32_t i = 0; i < hot_bytes_; i += 64) __builtin_prefetch(first + i);
+    if (scan_count_ == 0) return;
+    Fetch(scan_lanes_.data(), scan_count_);
+    Fetch(scan_corners_.data(), corner_count_);
+    Fetch(scan_vertices_.data(), corner_count_);
   }
 
   // What it holds beyond its own size, in bytes.
@@ -86,25 +90,26 @@ class SupportTable {
 
  private:
   // Eight corners, relative to the body's middle and over a power of two, so that all lie within
-  // [-1, 1], and which they are.
+  // [-1, 1].
   struct Lanes {
     float x[kLaneCount], y[kLaneCount], z[kLaneCount];
-    std::int32_t link[kLaneCount];
   };
   // A corner in lane 0 and up to seven of its neighbours; spare lanes repeat a neighbour. The
   // further blocks of a corner with more neighbours follow each other; there link[0] is how many
   // are left, itself included.
   struct alignas(64) Block {
     Lanes lanes;
+    std::int32_t link[kLaneCount];  // which corners they are
     Corner corner;
+    std::int32_t vertex;       // of the body
+    std::int32_t more_blocks;  // -1, or the first of its further blocks
   };
   static_assert(sizeof(Block) == 192);  // three cache lines
   static constexpr int kOwnNeighbors = kLaneCount - 1;
 
   // Bodies of up to so many corners keep all of them in lanes and need no blocks and no cells.
   static constexpr int kScanLimit = 32;
-  static_assert(kScanLimit == kTagMask + 1);
-  static constexpr std::array<std::int32_t, kLaneCount> kLaneTags = {0, 1, 2, 3, 4, 5, 6, 7};
+  static constexpr std::int32_t kScanTags = kScanLimit - 1, kBlockTags = kLaneCount - 1;
 
   // How far single precision may be off when two lanes are compared, for a direction of 1-norm 1
   // and coordinates within [-1, 1]. With u = 2^-23 (any rounding mode): a coordinate and a
@@ -130,15 +135,19 @@ class SupportTable {
       sum = std::abs(fx) + std::abs(fy) + std::abs(fz);
     }
     if (scan_count_ > 0) {
-      LaneType top = Heights<LaneType>(scan_[0], fx, fy, fz).Tagged(scan_[0].link);
-      for (int i = 1; i < scan_count_; ++i) {
-        top = LaneType::Larger(top, Heights<LaneType>(scan_[i], fx, fy, fz).Tagged(scan_[i].link));
-      }
-      return top.TagOfLargest();
+      const auto heights = [&](int i) {
+        return Heights<LaneType>(scan_lanes_[i], fx, fy, fz)
+            .template Tagged<kScanTags>(i * kLaneCount);
+      };
+      LaneType top = heights(0);
+      for (int i = 1; i < scan_count_; ++i) top = LaneType::Larger(top, heights(i));
+      return std::min(top.template TagOfLargest<kScanTags>(), corner_count_ - 1);
     }
     const std::size_t cell = Cell(fx, fy, fz, sum);
-    const Lanes& lanes = blocks_[is_wide_ ? wide_cells_[cell] : cells_[cell]].lanes;
-    return lanes.link[Heights<LaneType>(lanes, fx, fy, fz).Tagged(kLaneTags.data()).TagOfLargest()];
+    const Block& block = blocks_[is_wide() ? wide_cells_[cell] : cells_[cell]];
+    return block.link[Heights<LaneType>(block.lanes, fx, fy, fz)
+                          .template Tagged<kBlockTags>(0)
+                          .template TagOfLargest<kBlockTags>()];
   }
 
   // Directions with z >= 0, and those with z < 0, as the square [-1, 1]^2 each: the octahedron
@@ -157,10 +166,11 @@ class SupportTable {
   static bool Rescale(double* x, double* y, double* z);
 
   void AddCorners(const ConvexPolyhedronData& data);
-  void PutLane(Lanes* lanes, int lane, int corner) const;
+  void PutLane(Lanes* lanes, int lane, const Corner& corner) const;
+  void PutLink(Block* block, int lane, int corner) const;
   void FillBlocks(int corner, std::span<const int> neighbors);
   void FillCells();
-  void FillScan();
+  void FillScan(std::span<const Corner> corners, std::span<const std::int32_t> vertices);
 
   double Height(const Corner& corner, double x, double y, double z) const;
   // Calls visit(corner) for every corner that may be as far along as `corner` or further: in a
@@ -169,22 +179,30 @@ class SupportTable {
   TOUCHSTONE_INLINE int VisitRivals(int corner, float x, float y, float z, Visit visit) const;
   // Climbs from a corner; (x, y, z) has a 1-norm of about 1. `budget` bounds the blocks looked at:
   // it is reduced by their number, and a climb that used it up stops where it is.
-  Peak ClimbScaled(int start, double x, double y, double z, long* budget, long* steps) const;
+  Peak ClimbScaled(int start, double x, double y, double z, long* budget, int* steps) const;
 
-  std::int32_t hot_bytes_ = 64;  // from the start of this object
+  template <class T>
+  static TOUCHSTONE_INLINE void Fetch(const T* first, int count) {
+    const auto* bytes = reinterpret_cast<const char*>(first);
+    for (int i = 0; i < count * static_cast<int>(sizeof(T)); i += 64) __builtin_prefetch(bytes + i);
+  }
+
+  bool is_wide() const { return corner_count_ > 0x10000; }
+
   std::int32_t corner_count_ = 0;
-  std::int32_t scan_count_ = 0;  // lanes in use in scan_; 0 where the table serves
+  std::int32_t scan_count_ = 0;  // lanes in use; 0 where the table serves
   std::int32_t resolution_ = 0;
   float half_resolution_ = 0.0F;
-  bool is_wide_ = false;
-  double lane_scale_ = 1.0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   std::vector<Block> blocks_;             // of the corners, then the further blocks
   std::vector<std::uint16_t> cells_;      // corners; 2 resolution_^2 of them
   std::vector<std::int32_t> wide_cells_;  // instead, for bodies of more than 2^16 corners
-  std::vector<std::int32_t> corner_of_vertex_;
-  alignas(64) std::array<Lanes, kScanLimit / kLaneCount> scan_{};
+  alignas(64) std::array<Lanes, kScanLimit / kLaneCount> scan_lanes_{};
   std::array<Corner, kScanLimit> scan_corners_{};
+  std::array<std::int32_t, kScanLimit> scan_vertices_{};
+
+  std::vector<std::int32_t> corner_of_vertex_;
+  double lane_scale_ = 1.0;
 };
 
 }  // namespace touchstone

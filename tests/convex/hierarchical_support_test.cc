@@ -47,7 +47,7 @@ TEST(HierarchicalSupport, LeavesLittleToClimb) {
   const ConvexPolyhedron body = testing::MustBuild(testing::RoundBody(5000, {1, 1, 1}, 4));
   const HierarchicalSupport hierarchy(body);
   testing::Random random(5);
-  long moves = 0, moves_from_anywhere = 0;
+  int moves = 0, moves_from_anywhere = 0;
   for (int i = 0; i < 200; ++i) {
     const Vector3d direction = random.Direction();
     SupportVertex(body, direction, hierarchy.FindAboveBody(direction), &moves);

@@ -57,7 +57,7 @@ TEST(SupportTable, ALookIsNearlyAlwaysRight) {
     int right = 0;
     for (int i = 0; i < 1000; ++i) {
       const Vector3d d = random.Direction();
-      right += table.corner(table.Look(d[0], d[1], d[2])).vertex == SupportVertexByScan(body, d);
+      right += table.vertex(table.Look(d[0], d[1], d[2])) == SupportVertexByScan(body, d);
     }
     EXPECT_GE(right, n <= 32 ? 999 : 960) << n;
   }
@@ -84,11 +84,11 @@ TEST(SupportTable, ACertainPeakIsThePeak) {
     for (int i = 0; i < 150; ++i) {
       const Vector3d n = AnyDirection(body, &random);
       if (!(n.lpNorm<1>() > 0.0)) continue;
-      long steps = 0;
+      int steps = 0;
       const auto peak = table.Climb(random.Int(0, table.corner_count() - 1), n, &steps);
       ++(peak.certain ? certain : uncertain);
       if (!peak.certain) continue;
-      const int own = table.corner(peak.corner).vertex;
+      const int own = table.vertex(peak.corner);
       Vector3d changed = n;
       for (int k = 0; k < 3; ++k) changed[k] += 0x1p-30 * n.lpNorm<1>() * random.Int(-1, 1);
       for (const Vector3d& d : {n, changed}) {

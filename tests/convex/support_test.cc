@@ -169,7 +169,7 @@ TEST(Support, AnyRoundingModeWillDo) {
 TEST(Support, TableStartsSaveSteps) {
   testing::Random random(6);
   const ConvexPolyhedron body = testing::MustBuild(testing::RoundBody(1000, {2, 1, 1}, 8));
-  long table_steps = 0, far_steps = 0;
+  int table_steps = 0, far_steps = 0;
   constexpr int kCount = 2000;
   for (int i = 0; i < kCount; ++i) {
     const Vector3d direction = random.Direction();

@@ -34,7 +34,7 @@ volatile long sink;
 // As a search has it: inlined where the widest vectors are allowed.
 TOUCHSTONE_VECTOR_CLONES
 int Look(const SupportTable& table, double x, double y, double z) {
-  return table.corner(table.Look(x, y, z)).vertex;
+  return table.vertex(table.Look(x, y, z));
 }
 
 // Answers all of `directions`; with `dependent`, each direction waits for the answer before.
