@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+//
+// Skipping changes nothing: scenes under all rules, under each rule missing, under none, and on any
+// number of threads say the same in every step, and it is what Collide and Membership say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "touchstone/core/scene/scene.h"
+#include "touchstone/tests/scene/worlds.h"
+
+namespace touchstone::testing {
+namespace {
+
+using Eigen::Vector3d;
+
+struct NamedOptions {
+  std::string name;
+  SceneOptions options;
+};
+
+SceneOptions With(void (*change)(SceneRules&), Threads threads = Threads::kOne) {
+  SceneOptions options;
+  change(options.rules);
+  options.threads = threads;
+  return options;
+}
+
+// Exact signs from the start cost a hundred times as much: asked for apart.
+SceneRules NoneInDoubles() {
+  SceneRules rules = SceneRules::None();
+  rules.doubles_first = true;
+  return rules;
+}
+
+std::vector<NamedOptions> AllOptions() {
+  return {{"none", {NoneInDoubles(), Threads::kOne}},
+          {"all", {}},
+          {"all, threads", With([](SceneRules&) {}, Threads::kAll)},
+          {"sweep", With([](SceneRules& r) { r.broad_phase = BroadPhase::kSweep; })},
+          {"all pairs", With([](SceneRules& r) { r.broad_phase = BroadPhase::kAllPairs; })},
+          {"no margins", With([](SceneRules& r) { r.margins = false; })},
+          {"no rest", With([](SceneRules& r) { r.rest = false; })},
+          {"no balls", With([](SceneRules& r) { r.balls = false; })},
+          {"no guesses", With([](SceneRules& r) { r.guesses = false; })},
+          {"no lazy meshes", With([](SceneRules& r) { r.lazy_meshes = false; })},
+          {"not verdict alone", With([](SceneRules& r) { r.verdict_alone = false; })},
+          {"margins alone", With([](SceneRules& r) {
+             r = NoneInDoubles();
+             r.margins = true;
+           })},
+          {"none, threads", {NoneInDoubles(), Threads::kAll}}};
+}
+
+// The same world in scenes of different rules.
+class Worlds {
+ public:
+  explicit Worlds(const std::vector<NamedOptions>& all) {
+    for (const NamedOptions& named : all) {
+      names_.push_back(named.name);
+      scenes_.emplace_back(named.options);
+    }
+  }
+
+  template <class Call>
+  auto ForAll(Call call) {
+    for (std::size_t i = 1; i < scenes_.size(); ++i) call(scenes_[i]);
+    return call(scenes_[0]);
+  }
+
+  // Steps all and compares them with the first.
+  SceneStep Step() {
+    const SceneStep first = scenes_[0].Step();
+    for (std::size_t i = 1; i < scenes_.size(); ++i) {
+      SCOPED_TRACE(names_[i]);
+      const SceneStep other = scenes_[i].Step();
+      ExpectEqualEvents(first, other);
+      ExpectSameNumbers(first.distances, other.distances,
+                        [](const DistanceResult& r) { return r.distance; });
+      ExpectSameNumbers(first.depths, other.depths,
+                        [](const PenetrationResult& r) { return r.depth; });
+      ExpectSameNumbers(first.travels, other.travels,
+                        [](const DirectionalResult& r) { return r.enter.travel; });
+      totals_.resize(scenes_.size());
+      totals_[i].Add(other.counters);
+    }
+    return first;
+  }
+
+  Scene& scene(std::size_t i) { return scenes_[i]; }
+  const SceneCounters& totals(std::size_t i) const { return totals_[i]; }
+
+ private:
+  static void ExpectEqualEvents(const SceneStep& first, const SceneStep& other) {
+    ASSERT_EQ(first.events.size(), other.events.size());
+    for (std::size_t k = 0; k < first.events.size(); ++k) {
+      ASSERT_EQ(first.events[k], other.events[k])
+          << first.events[k].bodies.a.slot << ' ' << first.events[k].bodies.b.slot << ' '
+          << ToString(first.events[k].kind) << ' ' << ToString(other.events[k].kind) << ' '
+          << ToString(first.events[k].verdict) << ' ' << ToString(other.events[k].verdict);
+    }
+  }
+
+  // The same questions answered, and answers whose bounds agree.
+  template <class Number, class ValueOf>
+  static void ExpectSameNumbers(std::span<const Number> first, std::span<const Number> other,
+                                ValueOf value_of) {
+    ASSERT_EQ(first.size(), other.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      ASSERT_EQ(first[k].bodies, other[k].bodies);
+      ASSERT_EQ(first[k].part_a, other[k].part_a);
+      ASSERT_EQ(first[k].part_b, other[k].part_b);
+      ASSERT_EQ(first[k].status, other[k].status);
+      const BoundedValue x = value_of(first[k].result), y = value_of(other[k].result);
+      ASSERT_LE(std::abs(x.value - y.value), x.error + y.error);
+    }
+  }
+
+  std::vector<std::string> names_;
+  std::vector<Scene> scenes_;
+  std::vector<SceneCounters> totals_;
+};
+
+struct Walk {
+  double extent;  // of the world
+  double step, angle;
+  int one_in_rests, one_in_teleports, one_in_swaps;
+};
+
+// Bodies that nudge, rest, teleport, come and go; every verdict also held against Collide and
+// Membership now and then.
+void RunWalk(const std::vector<NamedOptions>& options, const std::vector<SceneShape>& shapes,
+             int body_count, int steps, const Walk& walk, std::uint64_t seed) {
+  std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
+  Random random(seed);
+  Worlds worlds(options);
+  std::vector<BodyHandle> bodies;
+  const auto add = [&] {
+    const SceneShape& shape = shapes[random.Int(0, static_cast<int>(shapes.size()) - 1)];
+    const WorldPose pose = RandomPose(random, walk.extent);
+    bodies.push_back(worlds.ForAll([&](Scene& scene) { return *scene.Add(shape, pose); }));
+  };
+  for (int i = 0; i < body_count; ++i) add();
+  long begins = 0, ends = 0, persists = 0;
+  for (int step = 0; step < steps; ++step) {
+    const bool all_rest = random.Int(0, 19) == 0;
+    for (const BodyHandle body : bodies) {
+      if (all_rest || random.Int(1, walk.one_in_rests) == 1) continue;
+      const WorldPose& pose = worlds.scene(0).pose(body);
+      WorldPose next = random.Int(1, walk.one_in_teleports) == 1
+                           ? RandomPose(random, walk.extent)
+                           : Nudged(random, pose, walk.step, walk.angle);
+      for (int axis = 0; axis < 3; ++axis) {
+        next.translation[axis] = std::clamp(next.translation[axis], -walk.extent, walk.extent);
+      }
+      worlds.ForAll([&](Scene& scene) {
+        EXPECT_TRUE(scene.Move(body, next).ok());
+        return 0;
+      });
+    }
+    if (random.Int(1, walk.one_in_swaps) == 1) {
+      const int gone = random.Int(0, static_cast<int>(bodies.size()) - 1);
+      worlds.ForAll([&](Scene& scene) {
+        EXPECT_TRUE(scene.Remove(bodies[gone]).ok());
+        return 0;
+      });
+      bodies.erase(bodies.begin() + gone);
+      add();
+    }
+    const SceneStep found = worlds.Step();
+    if (::testing::Test::HasFatalFailure()) FAIL() << "step " << step;
+    for (const SceneEvent& event : found.events) {
+      begins += event.kind == EventKind::kBegin;
+      ends += event.kind == EventKind::kEnd;
+      persists += event.kind == EventKind::kPersist;
+    }
+    if (step % 50 != 0) continue;
+    const Scene& scene = worlds.scene(0);
+    for (const BodyHandle a : bodies) {
+      for (const BodyHandle b : bodies) {
+        if (a.slot >= b.slot) continue;
+        ASSERT_EQ(scene.verdict(a, b),
+                  VerdictOf(scene.shape(a), scene.pose(a), scene.shape(b), scene.pose(b)));
+      }
+    }
+  }
+  EXPECT_GT(begins, steps / 50);
+  EXPECT_GT(ends, steps / 50);
+  EXPECT_GT(persists, steps / 10);
+  for (std::size_t i = 1; i < options.size(); ++i) {
+    const SceneCounters& c = worlds.totals(i);
+    std::printf(
+        "%-18s looked %8ld rest %8ld margin %8ld box %7ld balls %7ld guess %7ld queries %7ld"
+        " exact %6ld apart %5ld placed %5ld\n",
+        options[i].name.c_str(), c.looked_at, c.by_rest, c.by_margin, c.by_box, c.by_balls,
+        c.by_guess, c.queries, c.exact_queries, c.meshes_apart, c.meshes_placed);
+  }
+}
+
+TEST(Rules, TenThousandStepsOfConvexBodies) {
+  const std::vector<NamedOptions> all = AllOptions();
+  RunWalk({all[0], all[1]}, MixedShapes(false), 12, 10000, {3.0, 0.02, 0.02, 4, 400, 200}, 1);
+}
+
+TEST(Rules, EachOneOffIsIdentical) {
+  RunWalk(AllOptions(), MixedShapes(false), 10, 1000, {3.0, 0.03, 0.03, 4, 100, 60}, 2);
+}
+
+TEST(Rules, EachOneOffIsIdenticalWithMeshes) {
+  RunWalk(AllOptions(), MixedShapes(true), 9, 150, {2.5, 0.03, 0.03, 4, 60, 40}, 3);
+}
+
+TEST(Rules, FastBodies) {
+  RunWalk(AllOptions(), MixedShapes(false), 12, 300, {5.0, 2.0, 3.0, 6, 20, 20}, 4);
+}
+
+TEST(Rules, ExactFromTheStart) {
+  const std::vector<NamedOptions> all = AllOptions();
+  RunWalk({{"none", {SceneRules::None(), Threads::kOne}}, all[1]}, MixedShapes(false), 6, 150,
+          {2.0, 0.05, 0.05, 4, 50, 40}, 5);
+}
+
+// Cubes on a lattice, moved by whole and half steps: touches of faces, edges and vertices in every
+// step, exactly, and poses that come back.
+TEST(Rules, TouchesOnALattice) {
+  std::printf("seed 6\n");
+  Random random(6);
+  Worlds worlds(AllOptions());
+  const std::vector<SceneShape> shapes = {BoxShape({1, 1, 1}), BoxShape({0.5, 0.5, 2}),
+                                          CrossShape(), MeshShape("u", 0, 1.0)};
+  std::vector<BodyHandle> bodies;
+  const auto place = [&] {
+    return At({0.5 * random.Int(-8, 8), 0.5 * random.Int(-8, 8), 0.5 * random.Int(-4, 4)});
+  };
+  for (int i = 0; i < 14; ++i) {
+    const SceneShape& shape = shapes[i % shapes.size()];
+    const WorldPose pose = place();
+    bodies.push_back(worlds.ForAll([&](Scene& scene) { return *scene.Add(shape, pose); }));
+  }
+  long touches = 0;
+  for (int step = 0; step < 100; ++step) {
+    for (const BodyHandle body : bodies) {
+      if (random.Int(0, 2) != 0) continue;
+      WorldPose pose = worlds.scene(0).pose(body);
+      if (random.Int(0, 9) == 0) {
+        pose = place();
+      } else {
+        pose.translation[random.Int(0, 2)] += random.Int(0, 1) == 0 ? 0.5 : -0.5;
+      }
+      // One ulp off the touch, at times.
+      if (random.Int(0, 5) == 0) {
+        pose.translation[0] = std::nextafter(pose.translation[0], random.Uniform(-9, 9));
+      }
+      worlds.ForAll([&](Scene& scene) { return scene.Move(body, pose).ok(); });
+    }
+    const SceneStep found = worlds.Step();
+    if (HasFatalFailure()) FAIL() << "step " << step;
+    for (const SceneEvent& event : found.events) touches += event.verdict == Verdict::kTouch;
+  }
+  EXPECT_GT(touches, 500);
+}
+
+// Distances, depths and travels beside verdicts, by body and by pair.
+TEST(Rules, NumbersStayWithinTheirBounds) {
+  std::printf("seed 7\n");
+  Random random(7);
+  std::vector<NamedOptions> options = AllOptions();
+  Worlds worlds(options);
+  const std::vector<SceneShape> shapes = MixedShapes(false);
+  std::vector<BodyHandle> bodies;
+  for (int i = 0; i < 10; ++i) {
+    Subscriptions wanted;
+    wanted.verdict = i % 3 != 0;
+    if (i % 2 == 0) wanted.distance = 0.4;
+    if (i % 4 == 1) wanted.depth = true;
+    if (i % 5 == 2) wanted.travel = Subscriptions::Travel{{0.3, -0.2, 1.0}, 1.5};
+    const WorldPose pose = RandomPose(random, 3.0);
+    const SceneShape& shape = shapes[i % shapes.size()];
+    bodies.push_back(worlds.ForAll([&](Scene& scene) { return *scene.Add(shape, pose, wanted); }));
+  }
+  Subscriptions pair;
+  pair.verdict = false;
+  pair.distance = 100.0;
+  pair.travel = Subscriptions::Travel{{1, 0, 0}, 50.0};
+  worlds.ForAll([&](Scene& scene) { return scene.SubscribePair(bodies[7], bodies[3], pair).ok(); });
+  std::size_t distances = 0, depths = 0, travels = 0;
+  for (int step = 0; step < 250; ++step) {
+    for (const BodyHandle body : bodies) {
+      if (random.Int(0, 3) == 0) continue;
+      const WorldPose pose = random.Int(0, 60) == 0
+                                 ? RandomPose(random, 3.0)
+                                 : Nudged(random, worlds.scene(0).pose(body), 0.03, 0.03);
+      worlds.ForAll([&](Scene& scene) { return scene.Move(body, pose).ok(); });
+    }
+    const SceneStep found = worlds.Step();
+    if (HasFatalFailure()) FAIL() << "step " << step;
+    distances += found.distances.size();
+    depths += found.depths.size();
+    travels += found.travels.size();
+  }
+  EXPECT_GT(distances, 500u);
+  EXPECT_GT(depths, 100u);
+  EXPECT_GT(travels, 250u);
+}
+
+}  // namespace
+}  // namespace touchstone::testing
