@@ -10,11 +10,11 @@
 
 namespace touchstone {
 
-using internal::SceneBody;
 using internal::kNoPart;
 using internal::PairNumbers;
 using internal::PairState;
 using internal::PartData;
+using internal::SceneBody;
 
 namespace {
 

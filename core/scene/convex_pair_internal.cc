@@ -58,7 +58,7 @@ Highest FindHighest(const ConvexPolyhedron& body, const Vector3d& direction, int
   if (*corner < 0 || *corner >= table.corner_count()) {
     *corner = table.Look(direction[0], direction[1], direction[2]);
   }
-  long steps = 0;
+  int steps = 0;
   const SupportTable::Peak peak = table.Climb(*corner, direction, &steps);
   *corner = peak.corner;
   const SupportTable::Corner& found = table.corner(peak.corner);
@@ -96,7 +96,9 @@ double HeightInside(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d e = b - a, f = c - a, normal = e.cross(f);
   const double normal_error = 10.0 * kUnit * MaxAbs(e) * MaxAbs(f);
   const double error = normal_error * a.lpNorm<1>() + 4.0 * kUnit * normal.lpNorm<1>() * MaxAbs(a);
-  return kDown * (normal.dot(a) - kUp * error) / (kUp * (normal.norm() + 2.0 * normal_error));
+  // A flat triangle proves nothing: no height is divided by no area.
+  const double height = normal.dot(a) - kUp * error;
+  return height > 0.0 ? kDown * height / (kUp * (normal.norm() + 2.0 * normal_error)) : 0.0;
 }
 
 // The point a - b of M from corners of both, or c from interior points.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <functional>
 #include <limits>
 #include <mutex>
 
@@ -47,7 +48,7 @@ void Scene::Data::FindActive(SceneCounters* counters) {
   std::atomic<long> by_rest = 0, by_margin = 0;
   // Each chunk of pairs lists its own at its own place, so that the list does not depend on
   // threads.
-  ForRanges(active_counts.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+  const auto scan = [&](std::size_t begin, std::size_t end) {
     for (std::size_t chunk = begin; chunk < end; ++chunk) {
       const std::size_t from = chunk * kScanGrain, to = std::min(count, from + kScanGrain);
       std::size_t at = from;
@@ -67,7 +68,9 @@ void Scene::Data::FindActive(SceneCounters* counters) {
       by_rest += resting;
       by_margin += sure;
     }
-  });
+  };
+  // By reference: a copy of what it captures would be allocated.
+  ForRanges(active_counts.size(), 1, options.threads, std::ref(scan));
   std::size_t at = 0;
   for (std::size_t chunk = 0; chunk < active_counts.size(); ++chunk) {
     const auto from = active.begin() + static_cast<std::ptrdiff_t>(chunk * kScanGrain);
@@ -152,12 +155,13 @@ void Scene::Data::Look(SceneCounters* counters) {
   counters->looked_at += static_cast<long>(active.size());
   must_drop.resize(active.size());
   std::mutex mutex;
-  ForRanges(active.size(), kLookGrain, options.threads, [&](std::size_t begin, std::size_t end) {
+  const auto look = [&](std::size_t begin, std::size_t end) {
     SceneCounters local;
     for (std::size_t k = begin; k < end; ++k) LookAt(static_cast<int>(k), &local);
     const std::lock_guard lock(mutex);
     counters->Add(local);
-  });
+  };
+  ForRanges(active.size(), kLookGrain, options.threads, std::ref(look));
   TellChanges();
   // The last first: removing a pair moves only pairs behind it.
   for (int k = static_cast<int>(active.size()) - 1; k >= 0; --k) {

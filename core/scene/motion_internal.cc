@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/scene/motion_internal.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -23,7 +24,7 @@ bool IsClearlyRigid(const Matrix3d& r) {
   const double deviation =
       std::max({std::abs(a.dot(a) - 1.0), std::abs(b.dot(b) - 1.0), std::abs(c.dot(c) - 1.0),
                 std::abs(a.dot(b)), std::abs(b.dot(c)), std::abs(c.dot(a))});
-  return deviation < 9e-7 && r.determinant() > 0.5;
+  return deviation < 9e-7 && a.cross(b).dot(c) > 0.5;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 //
 // Distances, depths and travels of the pairs that are subscribed to them.
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <tuple>
@@ -53,14 +54,15 @@ void Scene::Data::FindNumbersOf(PairNumbers* wanted, SceneCounters* counters) {
 
 void Scene::Data::FindNumbers(SceneCounters* counters) {
   std::mutex mutex;
-  ForRanges(numbers.size(), kGrain, options.threads, [&](std::size_t begin, std::size_t end) {
+  const auto find = [&](std::size_t begin, std::size_t end) {
     SceneCounters local;
     for (std::size_t i = begin; i < end; ++i) {
       FindNumbersOf(&numbers[static_cast<int>(i)], &local);
     }
     const std::lock_guard lock(mutex);
     counters->Add(local);
-  });
+  };
+  ForRanges(numbers.size(), kGrain, options.threads, std::ref(find));
 }
 
 void Scene::Data::ListNumbersOf(const PairNumbers& found) {

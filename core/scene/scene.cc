@@ -11,9 +11,9 @@
 
 namespace touchstone {
 
-using internal::SceneBody;
 using internal::kNoPart;
 using internal::PartData;
+using internal::SceneBody;
 
 namespace {
 
@@ -56,7 +56,8 @@ Scene::Data::Data(const SceneOptions& chosen)
 SceneBody* Scene::Data::Find(BodyHandle handle) {
   if (handle.slot >= bodies.size()) return nullptr;
   SceneBody& body = bodies[handle.slot];
-  return body.life == SceneBody::Life::kAlive && body.generation == handle.generation ? &body : nullptr;
+  return body.life == SceneBody::Life::kAlive && body.generation == handle.generation ? &body
+                                                                                      : nullptr;
 }
 
 void Scene::Data::MarkMoved(std::uint32_t slot) {
@@ -86,7 +87,8 @@ bool Scene::Data::MayMeet(std::uint32_t slot_a, std::uint32_t slot_b) const {
   return !ignored.contains({slot_a, slot_b});
 }
 
-bool Scene::Data::WantsVerdict(const SceneBody& a, const SceneBody& b, const Subscriptions* pair) const {
+bool Scene::Data::WantsVerdict(const SceneBody& a, const SceneBody& b,
+                               const Subscriptions* pair) const {
   return a.subscriptions.verdict || b.subscriptions.verdict || (pair != nullptr && pair->verdict);
 }
 
@@ -324,7 +326,8 @@ const SceneShape& Scene::shape(BodyHandle body) const { return *data_->bodies[bo
 std::vector<BodyHandle> Scene::bodies() const {
   std::vector<BodyHandle> handles;
   for (std::uint32_t slot = 0; slot < data_->bodies.size(); ++slot) {
-    if (data_->bodies[slot].life == SceneBody::Life::kAlive) handles.push_back(data_->HandleOf(slot));
+    if (data_->bodies[slot].life == SceneBody::Life::kAlive)
+      handles.push_back(data_->HandleOf(slot));
   }
   return handles;
 }
