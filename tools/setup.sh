@@ -2,7 +2,7 @@
 # Sourced by tools/run and tools/test: from a fresh Debian 12 to a configured and built tree.
 
 packages=(g++ cmake ninja-build libeigen3-dev libboost-dev libcgal-dev libgmp-dev libmpfr-dev
-          libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev libtbb-dev
+          libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev libtbb-dev libsqlite3-dev
           libccd-dev libfcl-dev libbullet-dev)
 mesh_package=libcgal-demo
 # What draws the figures of `touchstone bench`.

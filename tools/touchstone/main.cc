@@ -35,6 +35,7 @@ int Run(int argc, char** argv) {
   AddReplay(app, exit_code);
   AddBench(app, exit_code);
   AddEngines(app, exit_code);
+  AddFuzz(app, exit_code);
   AddMembership(app, exit_code);
   // Otherwise CLI11 says only that a subcommand is required.
   const auto is_asked = [&](const CLI::App* command) { return command->get_name() == argv[1]; };

@@ -26,6 +26,7 @@ void AddDepth(CLI::App& app, int& exit_code);
 void AddDirection(CLI::App& app, int& exit_code);
 void AddDistance(CLI::App& app, int& exit_code);
 void AddEngines(CLI::App& app, int& exit_code);
+void AddFuzz(CLI::App& app, int& exit_code);
 void AddMembership(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
 void AddSuites(CLI::App& app, int& exit_code);
