@@ -133,10 +133,35 @@ TEST(SuitesCommand, ListsEverySuite) {
     EXPECT_FALSE(suite["summary"].get<std::string>().empty());
     EXPECT_FALSE(suite["attacks"].get<std::string>().empty());
   }
-  EXPECT_EQ(names, (std::set<std::string>{"ellipsoid-1", "ellipsoid-2", "ellipsoid-4",
-                                          "ellipsoid-10", "ellipsoid-n20", "large", "grid",
-                                          "boxes-face", "boxes-edge", "boxes-vertex", "prisms",
-                                          "ties", "tetrahedra", "reported", "meshes"}));
+  EXPECT_EQ(names, (std::set<std::string>{"ellipsoid-1",
+                                          "ellipsoid-2",
+                                          "ellipsoid-4",
+                                          "ellipsoid-10",
+                                          "ellipsoid-n20",
+                                          "large",
+                                          "grid",
+                                          "boxes-face",
+                                          "boxes-edge",
+                                          "boxes-vertex",
+                                          "prisms",
+                                          "ties",
+                                          "tetrahedra",
+                                          "touch-face-vertex",
+                                          "touch-vertex-face",
+                                          "touch-edge-edge",
+                                          "touch-face-edge",
+                                          "touch-edge-face",
+                                          "touch-face-face",
+                                          "slivers",
+                                          "far",
+                                          "scales",
+                                          "near-coplanar",
+                                          "near-duplicates",
+                                          "off-orthonormal",
+                                          "nested",
+                                          "world-poses",
+                                          "reported",
+                                          "meshes"}));
 }
 
 }  // namespace

@@ -134,13 +134,14 @@ bool NegativeCount(CollideResult& result, const PlacedPair&) {
 struct NamedBreak {
   const char* name;
   Break apply;
+  bool early_exit = false;  // of a result that is asked for so: it holds a separating direction
 };
 constexpr std::array<NamedBreak, 17> kBreaks = {{
     {"other_verdict", OtherVerdict},
     {"says_undecided", SaysUndecided},
     {"no_certificate", NoCertificate},
-    {"direction_reversed", DirectionReversed},
-    {"direction_not_a_number", DirectionNotANumber},
+    {"direction_reversed", DirectionReversed, true},
+    {"direction_not_a_number", DirectionNotANumber, true},
     {"proof_collapsed", ProofCollapsed},
     {"facet_reversed", FacetReversed},
     {"proof_out_of_range", ProofOutOfRange},
@@ -161,16 +162,19 @@ class Corrupted : public Contestant {
 
   std::vector<NamedFinding> Ask(const CampaignQuery& query, EngineTally& tally) override {
     const PlacedPair& pair = query.pair();
-    const NamedBreak& planted = kBreaks[(query.index() + query.index() / 20) % kBreaks.size()];
-    CollideResult result = Collide(pair.p, pair.q, pair.pose);
+    // Mixed, so that no error keeps to one of the placements, which come in turn.
+    const std::uint64_t draw = query.index() * 0x9e3779b97f4a7c15u >> 32;
+    const NamedBreak& planted = kBreaks[draw % kBreaks.size()];
+    CollideResult result = Collide(pair.p, pair.q, pair.pose, {.early_exit = planted.early_exit});
     if (!planted.apply(result, pair)) {
       tally.Count("not planted");
       return {};
     }
     tally.Count(std::string("planted ") + planted.name);
-    const bool seen = !exact::Judge(query.bodies().Get(pair.p), query.bodies().Get(pair.q),
-                                    pair.pose, result, {.check_phase_maxima = false})
-                           .empty();
+    const bool seen =
+        !exact::Judge(query.bodies().Get(pair.p), query.bodies().Get(pair.q), pair.pose, result,
+                      {.early_exit = planted.early_exit, .check_phase_maxima = false})
+             .empty();
     if (seen) return {};
     return {{"missed_error", std::string("the judge lets stand: ") + planted.name}};
   }

@@ -37,7 +37,7 @@ static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 [[noreturn]] void ServeBatches(const CampaignPlan& plan, int in, int out, Position& position) {
   // The terminal's signals are the parent's; its death is the child's.
   std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGTERM, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // A crash is a finding, not a file.
   const rlimit no_core{0, 0};

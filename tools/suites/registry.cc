@@ -2,6 +2,7 @@
 #include "touchstone/tools/suites/registry.h"
 
 #include <array>
+#include <utility>
 
 #include "touchstone/tools/suites/ellipsoid.h"
 
@@ -41,6 +42,15 @@ std::vector<std::unique_ptr<Suite>> MakeSuites(const std::string& meshes_dir) {
   suites.push_back(MakePrismsSuite());
   suites.push_back(MakeTiesSuite());
   suites.push_back(MakeTetrahedraSuite());
+  for (std::unique_ptr<Suite>& suite : MakeTouchSuites()) suites.push_back(std::move(suite));
+  suites.push_back(MakeSliversSuite());
+  suites.push_back(MakeFarSuite());
+  suites.push_back(MakeScalesSuite());
+  suites.push_back(MakeCoplanarSuite());
+  suites.push_back(MakeDuplicatesSuite());
+  suites.push_back(MakeOffOrthonormalSuite());
+  suites.push_back(MakeNestedSuite());
+  suites.push_back(MakeWorldPosesSuite());
   suites.push_back(MakeReportedSuite());
   suites.push_back(MakeMeshesSuite(meshes_dir));
   return suites;

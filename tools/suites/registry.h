@@ -23,6 +23,16 @@ std::unique_ptr<Suite> MakePrismsSuite();
 std::unique_ptr<Suite> MakeTiesSuite();
 std::unique_ptr<Suite> MakeTetrahedraSuite();
 std::unique_ptr<Suite> MakeReportedSuite();
+std::unique_ptr<Suite> MakeSliversSuite();
+std::unique_ptr<Suite> MakeFarSuite();
+std::unique_ptr<Suite> MakeScalesSuite();
+std::unique_ptr<Suite> MakeCoplanarSuite();
+std::unique_ptr<Suite> MakeDuplicatesSuite();
+std::unique_ptr<Suite> MakeOffOrthonormalSuite();
+std::unique_ptr<Suite> MakeNestedSuite();
+std::unique_ptr<Suite> MakeWorldPosesSuite();
+// One a class of face.
+std::vector<std::unique_ptr<Suite>> MakeTouchSuites();
 std::unique_ptr<Suite> MakeMeshesSuite(const std::string& meshes_dir);
 
 }  // namespace touchstone

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "touchstone/tests/tools/program.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Everything but how the run ended.
+nlohmann::json Totals(const ProgramRun& run) {
+  nlohmann::json json = run.json();
+  json.erase("end");
+  return json;
+}
+
+constexpr const char* kCommand =
+    "fuzz --suites grid,ties --engines portal,phased --count 2000 --json ";
+
+TEST(FuzzCommand, CountsByEngineAndSuite) {
+  const TemporaryFolder folder("fuzz");
+  const ProgramRun run = RunProgram(
+      "fuzz --suites boxes-face,far --engines portal,fcl-own,bullet-f32:held --count 240 --json "
+      "--out " +
+      folder.path("a"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;  // findings of others are counted, not an error
+  const nlohmann::json json = run.json();
+  ASSERT_EQ(json["results"].size(), 6u);
+  for (const nlohmann::json& row : json["results"]) {
+    for (const char* key : {"engine", "suite", "queries", "wrong", "unresolved", "findings"})
+      EXPECT_TRUE(row.contains(key)) << key;
+    EXPECT_EQ(row["queries"], 240);
+    if (row["engine"] == "portal") {
+      EXPECT_EQ(row["findings"], 0);
+    }
+  }
+  EXPECT_EQ(json["total"]["queries"], 6 * 240);
+  EXPECT_GT(json["total"]["wrong"], 0);
+  EXPECT_EQ(json["total"]["proven_findings"], 0);
+}
+
+TEST(FuzzCommand, KilledStoppedAndSplitItEndsWithTheSameTotals) {
+  const TemporaryFolder folder("fuzz");
+  const ProgramRun whole =
+      RunProgram(std::string(kCommand) + "--threads 1 --out " + folder.path("whole"));
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  // Killed for good and asked to stop, again and again, each time a little later.
+  const std::string command = std::string(kCommand) + "--threads 2 --out " + folder.path("pieces");
+  int interrupted = 0;
+  for (int i = 0; i < 6; ++i) {
+    const std::string how = i % 2 == 0 ? "timeout -s KILL 0." : "timeout -s TERM 0.";
+    const std::string delay = std::to_string(2 + i);
+    const int status = std::system(
+        (how + delay + " " + TOUCHSTONE_PROGRAM + " " + command + " >/dev/null 2>&1").c_str());
+    interrupted += status != 0;
+  }
+  EXPECT_GT(interrupted, 0);
+  const ProgramRun last = RunProgram(command);
+  EXPECT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_EQ(last.json()["end"], "complete");
+  EXPECT_TRUE(Totals(last) == Totals(whole));
+  // Nothing left to do: the same again.
+  EXPECT_TRUE(Totals(RunProgram(command)) == Totals(whole));
+}
+
+TEST(FuzzCommand, MinutesEndIt) {
+  const TemporaryFolder folder("fuzz");
+  const ProgramRun run = RunProgram(
+      "fuzz --suites tetrahedra --engines portal --minutes 0.01 --json --out " + folder.path("a"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.json()["end"].get<std::string>(), HasSubstr("time is up"));
+  EXPECT_GT(run.json()["total"]["queries"], 0);
+}
+
+TEST(FuzzCommand, BadUsageIsOneLineAndCodeTwo) {
+  const TemporaryFolder folder("fuzz");
+  const auto refused = [&](const std::string& arguments, const std::string& text) {
+    const ProgramRun run = RunProgram("fuzz " + arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_THAT(run.err, HasSubstr(text)) << arguments;
+  };
+  const std::string out = "--out " + folder.path("a");
+  refused("", "--out");
+  refused("--suites nothing " + out, "no suite 'nothing'");
+  refused("--suites meshes " + out, "--meshes");
+  refused("--engines nobody " + out, "no engine 'nobody'");
+  refused("--engines portal,portal " + out, "portal is named twice");
+  refused("--minutes -1 " + out, "--minutes");
+  refused("--hang-seconds 0 " + out, "--hang-seconds");
+  refused("--out /proc/none", "--out: /proc/none");
+}
+
+}  // namespace
+}  // namespace touchstone
