@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/minkowski/dynamic_convolution.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "touchstone/core/minkowski/gauss_arrangement_internal.h"
+#include "touchstone/core/minkowski/map_search_internal.h"
+#include "touchstone/core/minkowski/support_signs_internal.h"
+
+namespace touchstone {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using internal::MapSearch;
+using internal::Side;
+using internal::SupportSigns;
+
+// Signs are those of pole . (turn * direction), or of direction . (turn * along). Vectors are
+// within sqrt(3) 2^-51 of exact ones, the turn (a rotation, or its cofactors: three roundings an
+// entry) within 9 2^-52, and the product adds less than 2^-50: 2^-48 in all, as lengths are within
+// 1e-6 of one.
+constexpr double kRounding = 0x1p-47;
+// Entries of a pose from two world poses are off by `error`; cofactors by 2 (2 + 1e-5) of it, as a
+// matrix by three times that.
+constexpr double kPoseFactor = 13.0;
+// Travel is a sum of doubles: beyond this, its last places are above kRounding / 8, and all is
+// found anew.
+constexpr double kGreatestTravel = 8.0;
+constexpr double kNever = -1.0;
+
+// At least the 2-norm: the root of the greatest eigenvalue of MᵀM, at most the eighth root of the
+// trace of its fourth power.
+double NormBound(const Matrix3d& matrix) {
+  const double scale = matrix.cwiseAbs().maxCoeff();
+  if (scale == 0.0) return 0.0;
+  const Matrix3d unit = matrix / scale;
+  const Matrix3d squared = unit.transpose() * unit;
+  const Matrix3d fourth = squared * squared;
+  const double trace = (fourth * fourth).trace();
+  return scale * std::pow(trace, 0.125) * (1.0 + 1e-12);
+}
+
+Matrix3d CofactorsOf(const Matrix3d& m) {
+  Matrix3d cofactors;
+  for (int i = 0; i < 3; ++i) {
+    cofactors.row(i) = m.row((i + 1) % 3).cross(m.row((i + 2) % 3));
+  }
+  return cofactors;
+}
+
+// Appends `from` without `without`, both sorted.
+template <class T, class Add>
+void ForEachMissing(const std::vector<T>& from, const std::vector<T>& without, const Add& add) {
+  auto other = without.begin();
+  for (const T& item : from) {
+    while (other != without.end() && *other < item) ++other;
+    if (other == without.end() || item < *other) add(item);
+  }
+}
+
+}  // namespace
+
+MappedMesh::MappedMesh(const TriangleMesh& mesh_in)
+    : mesh(mesh_in),
+      gauss_map(mesh),
+      convex_map(ConvexMap::Conforming(mesh, gauss_map, MapArcs::kConvex)) {
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (gauss_map.vertex_kind(v) == VertexKind::kSpecial) special_vertices.push_back(v);
+  }
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    along.push_back(internal::DirectionOfEdge(mesh, e).unit);
+  }
+}
+
+class DynamicConvolution::State {
+ public:
+  State(MappedMesh a, MappedMesh b)
+      : bodies_{std::move(a), std::move(b)},
+        searches_{MapSearch(bodies_[1].convex_map), MapSearch(bodies_[0].convex_map)} {
+    for (const int side : {0, 1}) AddDirections(side);
+    std::array<int, 2> convex_edges = {0, 0};
+    for (const int side : {0, 1}) {
+      const TriangleMesh& mesh = bodies_[side].mesh;
+      for (int e = 0; e < mesh.edge_count(); ++e) {
+        convex_edges[side] += mesh.edge_kind(e) == EdgeKind::kConvex;
+      }
+    }
+    // Short arcs meet few others.
+    traced_ = convex_edges[0] >= convex_edges[1] ? 0 : 1;
+    AddEdges();
+    counts_.features =
+        static_cast<int>(directions_[0].size() + directions_[1].size() + edges_.size());
+  }
+
+  void Place(const MeshPair& pair) {
+    pair_ = &pair;
+    ++pose_;
+    signs_.reset();
+    counts_.looked_at = counts_.undecided = 0;
+    counts_.regions = counts_.exact_signs = 0;
+    const Matrix3d rotation = pair.pose().rotation();
+    const Matrix3d cofactors = CofactorsOf(rotation);
+    margin_ = kRounding + kPoseFactor * pair.pose().rotation_error();
+    if (rotation_) {
+      travel_ += std::max(NormBound(rotation - *rotation_), NormBound(cofactors - *cofactors_));
+    }
+    if (!rotation_ || !(travel_ < kGreatestTravel)) StartAnew();
+    rotation_ = rotation;
+    cofactors_ = cofactors;
+    turn_directions_ = {-rotation.transpose(), -cofactors};
+    turn_along_ = {cofactors.transpose(), rotation};
+  }
+
+  const SumChanges& Update(const MeshPair& pair) {
+    Place(pair);
+    changes_.dropped.swap(noted_.dropped);
+    changes_.added.swap(noted_.added);
+    noted_.dropped.clear();
+    noted_.added.clear();
+    due_.clear();
+    while (!queue_.empty() && queue_.front().until <= travel_) {
+      std::pop_heap(queue_.begin(), queue_.end());
+      const Entry entry = queue_.back();
+      queue_.pop_back();
+      if (entry.until == UntilOf(entry.feature)) due_.push_back(entry.feature);
+    }
+    // Edges begin where their faces' directions lie.
+    std::sort(due_.begin(), due_.end());
+    due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
+    for (const int feature : due_) Refresh(feature);
+    changes_.dropped.insert(changes_.dropped.end(), noted_.dropped.begin(), noted_.dropped.end());
+    changes_.added.insert(changes_.added.end(), noted_.added.begin(), noted_.added.end());
+    noted_.dropped.clear();
+    noted_.added.clear();
+    Cancel();
+    return changes_;
+  }
+
+  std::span<const int> VerticesOnFace(int side, int face) {
+    const int i = feature_of_face_[side][face];
+    Require(side, i);
+    return directions_[side][i].vertices;
+  }
+
+  bool traces_a() const { return traced_ == 0; }
+  std::span<const SumFacet> FacetsOfEdge(int edge) {
+    const int i = feature_of_edge_[edge];
+    if (i < 0) return {};
+    if (edges_[i].until <= travel_ && edges_[i].pose != pose_) Refresh(FirstEdge() + i);
+    return edges_[i].facets;
+  }
+
+  std::vector<SumFacet> Facets() const {
+    std::vector<SumFacet> facets;
+    for (const int side : {0, 1}) {
+      for (const DirectionFeature& feature : directions_[side]) {
+        for (const int f : FacesOf(side, feature)) {
+          for (const int v : feature.vertices) facets.push_back(FaceVertexFacet(side, f, v));
+        }
+      }
+    }
+    for (const EdgeFeature& feature : edges_) {
+      facets.insert(facets.end(), feature.facets.begin(), feature.facets.end());
+    }
+    std::sort(facets.begin(), facets.end());
+    return facets;
+  }
+
+  const Counts& counts() const { return counts_; }
+
+ private:
+  // A direction of one body's map in the map of the other.
+  struct DirectionFeature {
+    int face;                   // of its own map
+    int region = 0;             // of the other's map, where it lies, or near which
+    bool is_decided = false;    // by doubles: it lies within the region
+    int pose = 0;               // the last at which it was looked at
+    double until = kNever;      // the travel at which what it found may end
+    std::vector<int> vertices;  // that support it, sorted
+  };
+  // An edge of one mesh in the map of the other.
+  struct EdgeFeature {
+    int edge;
+    int pose = 0;
+    double until = kNever;
+    std::vector<SumFacet> facets;  // sorted
+  };
+  // In a heap by `until`; void where that is not the feature's any more.
+  struct Entry {
+    double until;
+    int feature;  // directions of A, directions of B, edges
+    friend bool operator<(const Entry& a, const Entry& b) { return a.until > b.until; }
+  };
+
+  int FirstOfB() const { return static_cast<int>(directions_[0].size()); }
+  int FirstEdge() const { return FirstOfB() + static_cast<int>(directions_[1].size()); }
+  double UntilOf(int feature) const {
+    if (feature < FirstOfB()) return directions_[0][feature].until;
+    if (feature < FirstEdge()) return directions_[1][feature - FirstOfB()].until;
+    return edges_[feature - FirstEdge()].until;
+  }
+  std::span<const int> FacesOf(int side, const DirectionFeature& feature) const {
+    return bodies_[side].convex_map.faces_at(feature.face);
+  }
+  static SumFacet FaceVertexFacet(int side, int face, int vertex) {
+    if (side == 0) return {SumFacetKind::kFaceVertex, false, face, vertex};
+    return {SumFacetKind::kVertexFace, false, vertex, face};
+  }
+  static Side SideOf(int side) { return side == 0 ? Side::kA : Side::kB; }
+
+  void AddDirections(int side) {
+    const ConvexMap& map = bodies_[side].convex_map;
+    std::vector<int> feature_of_direction(map.face_count(), -1);
+    for (int f = 0; f < bodies_[side].mesh.face_count(); ++f) {
+      const int face = map.face_of_mesh_face(f);
+      if (feature_of_direction[face] < 0) {
+        feature_of_direction[face] = static_cast<int>(directions_[side].size());
+        directions_[side].push_back({face, 0, false, 0, kNever, {}});
+      }
+      feature_of_face_[side].push_back(feature_of_direction[face]);
+    }
+  }
+
+  void AddEdges() {
+    const TriangleMesh& mesh = bodies_[traced_].mesh;
+    feature_of_edge_.assign(mesh.edge_count(), -1);
+    for (int e = 0; e < mesh.edge_count(); ++e) {
+      if (mesh.edge_kind(e) != EdgeKind::kConvex) continue;
+      feature_of_edge_[e] = static_cast<int>(edges_.size());
+      edges_.push_back({e, 0, kNever, {}});
+    }
+  }
+
+  void StartAnew() {
+    travel_ = 0.0;
+    queue_.clear();
+    for (auto& directions : directions_) {
+      for (DirectionFeature& feature : directions) feature.until = kNever;
+    }
+    for (EdgeFeature& feature : edges_) feature.until = kNever;
+    for (int i = 0; i < counts_.features; ++i) queue_.push_back({kNever, i});
+  }
+
+  // The exact signs of the pair, made when first needed at a pose.
+  SupportSigns& signs() {
+    if (!signs_) signs_.emplace(*pair_, bodies_[0].gauss_map, bodies_[1].gauss_map);
+    return *signs_;
+  }
+
+  // A sign whose value was v keeps it while the matrices have changed by less than |v| less the
+  // errors of both poses; the search has taken off one `margin` and the comparison takes another.
+  double Until(double slack) const {
+    return slack > margin_ ? travel_ + (slack - margin_) : travel_;
+  }
+
+  void Refresh(int feature) {
+    ++counts_.looked_at;
+    const long exact_before = signs_ ? signs_->exact_count() : 0;
+    if (feature < FirstOfB()) {
+      RefreshDirection(0, &directions_[0][feature]);
+    } else if (feature < FirstEdge()) {
+      RefreshDirection(1, &directions_[1][feature - FirstOfB()]);
+    } else {
+      RefreshEdge(&edges_[feature - FirstEdge()]);
+    }
+    if (signs_) counts_.exact_signs += signs_->exact_count() - exact_before;
+    queue_.push_back({UntilOf(feature), feature});
+    std::push_heap(queue_.begin(), queue_.end());
+  }
+
+  // Brings a direction up to date, unless it is.
+  void Require(int side, int i) {
+    const DirectionFeature& feature = directions_[side][i];
+    if (feature.until > travel_ || feature.pose == pose_) return;
+    Refresh(side == 0 ? i : FirstOfB() + i);
+  }
+
+  void RefreshDirection(int side, DirectionFeature* feature) {
+    feature->pose = pose_;
+    MapSearch& search = searches_[side];
+    const ConvexMap& other = bodies_[1 - side].convex_map;
+    const Vector3d x = turn_directions_[side] * bodies_[side].convex_map.direction(feature->face);
+    // From where it was, or where the last one was found, whichever is nearer.
+    const int last = last_regions_[side];
+    const int start =
+        other.middle(feature->region).dot(x) >= other.middle(last).dot(x) ? feature->region : last;
+    const double slack = search.FindPoint(x, start, 2.0 * margin_);
+    const int region = search.regions().front();
+    counts_.regions += std::ssize(search.regions());
+    last_regions_[side] = region;
+    const bool is_decided = slack > margin_;
+    feature->until = Until(slack);
+    if (is_decided && feature->is_decided && region == feature->region) return;
+    feature->region = region;
+    feature->is_decided = is_decided;
+    found_vertices_.clear();
+    for (const int r : search.regions()) {
+      const auto over = other.vertices_over(r);
+      found_vertices_.insert(found_vertices_.end(), over.begin(), over.end());
+    }
+    if (!is_decided) DecideVertices(side, *feature);
+    NoteVertices(side, *feature);
+    feature->vertices.swap(found_vertices_);
+  }
+
+  // Leaves of the vertices found, and of the special ones, those that support the feature's faces.
+  void DecideVertices(int side, const DirectionFeature& feature) {
+    ++counts_.undecided;
+    const std::vector<int>& special = bodies_[1 - side].special_vertices;
+    found_vertices_.insert(found_vertices_.end(), special.begin(), special.end());
+    std::sort(found_vertices_.begin(), found_vertices_.end());
+    found_vertices_.erase(std::unique(found_vertices_.begin(), found_vertices_.end()),
+                          found_vertices_.end());
+    const int face = FacesOf(side, feature).front();
+    std::erase_if(found_vertices_,
+                  [&](int v) { return !signs().FaceVertex(SideOf(side), face, v); });
+  }
+
+  void NoteVertices(int side, const DirectionFeature& feature) {
+    for (const int f : FacesOf(side, feature)) {
+      ForEachMissing(feature.vertices, found_vertices_,
+                     [&](int v) { noted_.dropped.push_back(FaceVertexFacet(side, f, v)); });
+      ForEachMissing(found_vertices_, feature.vertices,
+                     [&](int v) { noted_.added.push_back(FaceVertexFacet(side, f, v)); });
+    }
+  }
+
+  void RefreshEdge(EdgeFeature* feature) {
+    feature->pose = pose_;
+    const MappedMesh &body = bodies_[traced_], &other = bodies_[1 - traced_];
+    const int h = body.mesh.half_edge_of(feature->edge);
+    const int left = feature_of_face_[traced_][h / 3];
+    const int right = feature_of_face_[traced_][body.mesh.twin(h) / 3];
+    Require(traced_, left);
+    const DirectionFeature& start = directions_[traced_][left];
+    const auto turned = [&](int direction) -> Vector3d {
+      return turn_directions_[traced_] *
+             body.convex_map.direction(directions_[traced_][direction].face);
+    };
+    // The arc of a convex edge runs counterclockwise round the half-edge.
+    MapSearch& search = searches_[traced_];
+    const double slack = search.FindArc(turned(left), turned(right),
+                                        turn_along_[traced_] * body.along[feature->edge],
+                                        start.region, start.is_decided, 2.0 * margin_);
+    counts_.regions += std::ssize(search.regions());
+    counts_.undecided += slack <= margin_;
+    feature->until = Until(slack);
+    found_edges_.clear();
+    for (const int e : search.edges()) {
+      const auto along = other.convex_map.edges_along(e);
+      found_edges_.insert(found_edges_.end(), along.begin(), along.end());
+    }
+    std::sort(found_edges_.begin(), found_edges_.end());
+    found_edges_.erase(std::unique(found_edges_.begin(), found_edges_.end()), found_edges_.end());
+    found_facets_.clear();
+    for (const int e : found_edges_) {
+      const auto facet =
+          traced_ == 0 ? signs().EdgeEdge(feature->edge, e) : signs().EdgeEdge(e, feature->edge);
+      if (facet) found_facets_.push_back(*facet);
+    }
+    std::sort(found_facets_.begin(), found_facets_.end());
+    ForEachMissing(feature->facets, found_facets_,
+                   [&](const SumFacet& facet) { noted_.dropped.push_back(facet); });
+    ForEachMissing(found_facets_, feature->facets,
+                   [&](const SumFacet& facet) { noted_.added.push_back(facet); });
+    feature->facets.swap(found_facets_);
+  }
+
+  // Sorts the changes, and takes out what came and went between two updates.
+  void Cancel() {
+    std::sort(changes_.dropped.begin(), changes_.dropped.end());
+    std::sort(changes_.added.begin(), changes_.added.end());
+    SumChanges net;
+    std::set_difference(changes_.dropped.begin(), changes_.dropped.end(), changes_.added.begin(),
+                        changes_.added.end(), std::back_inserter(net.dropped));
+    std::set_difference(changes_.added.begin(), changes_.added.end(), changes_.dropped.begin(),
+                        changes_.dropped.end(), std::back_inserter(net.added));
+    changes_ = std::move(net);
+  }
+
+  std::array<MappedMesh, 2> bodies_;
+  std::array<MapSearch, 2> searches_;  // of A's features in B's map, of B's in A's
+  std::array<std::vector<DirectionFeature>, 2> directions_;
+  std::array<std::vector<int>, 2> feature_of_face_;  // by face of the mesh
+  std::array<int, 2> last_regions_ = {0, 0};
+  int traced_ = 0;  // whose edges are features
+  std::vector<EdgeFeature> edges_;
+  std::vector<int> feature_of_edge_;  // by edge of that mesh; -1: not convex
+
+  std::vector<Entry> queue_;
+  std::vector<int> due_;
+  int pose_ = 0;
+  double travel_ = 0.0;  // the sum of the changes of rotation so far
+  double margin_ = 0.0;  // what a sign's value in doubles may be off by
+  // Directions, and vectors along edges, of either body as the other sees them, B reversed.
+  std::array<Matrix3d, 2> turn_directions_, turn_along_;
+  std::optional<Matrix3d> rotation_, cofactors_;
+  const MeshPair* pair_ = nullptr;
+  std::optional<SupportSigns> signs_;
+
+  std::vector<int> found_vertices_, found_edges_;
+  std::vector<SumFacet> found_facets_;
+  SumChanges noted_, changes_;
+  Counts counts_;
+};
+
+DynamicConvolution::DynamicConvolution(MappedMesh a, MappedMesh b)
+    : state_(std::make_unique<State>(std::move(a), std::move(b))) {}
+DynamicConvolution::DynamicConvolution(DynamicConvolution&&) noexcept = default;
+DynamicConvolution& DynamicConvolution::operator=(DynamicConvolution&&) noexcept = default;
+DynamicConvolution::~DynamicConvolution() = default;
+
+const SumChanges& DynamicConvolution::Update(const MeshPair& pair) { return state_->Update(pair); }
+std::vector<SumFacet> DynamicConvolution::Facets() const { return state_->Facets(); }
+void DynamicConvolution::Place(const MeshPair& pair) { state_->Place(pair); }
+std::span<const int> DynamicConvolution::VerticesOnFaceOfA(int face) {
+  return state_->VerticesOnFace(0, face);
+}
+std::span<const int> DynamicConvolution::VerticesOnFaceOfB(int face) {
+  return state_->VerticesOnFace(1, face);
+}
+bool DynamicConvolution::traces_a() const { return state_->traces_a(); }
+std::span<const SumFacet> DynamicConvolution::FacetsOfEdge(int edge) {
+  return state_->FacetsOfEdge(edge);
+}
+const DynamicConvolution::Counts& DynamicConvolution::counts() const { return state_->counts(); }
+
+}  // namespace touchstone
