@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/cpd/burial_internal.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "touchstone/core/base/vector_clones.h"
+#include "touchstone/core/cpd/contact_name_internal.h"
+
+namespace touchstone::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+// Points of M and of prisms have coordinates below 2, so they are within 7 of each other: a normal
+// off by e in each coordinate moves a plane there by at most 7 sqrt(3) e. Points are off by 2^-49,
+// heights are rounded by as much.
+constexpr double kReach = 12.2;
+constexpr double kPointSlack = 0x1p-46;
+// A plane less certain than this buries nothing.
+constexpr double kWorstSlack = 0x1p-16;
+
+}  // namespace
+
+double Prism::Margin(const Vector3d& x) const {
+  double margin = 1e300;
+  for (int k = 0; k < kPrismPlanes; ++k) margin = std::min(margin, offsets[k] - normals[k].dot(x));
+  return margin;
+}
+
+SumFacet FacetOf(const MeshPair& pair, const PrismName& name, int plane) {
+  const PlacedMesh& of_edge = name.edge_is_of_a ? pair.a() : pair.b();
+  const PlacedMesh& of_face = name.edge_is_of_a ? pair.b() : pair.a();
+  if (plane < 2) {
+    const int h = of_edge.mesh.half_edge_of(name.edge);
+    const int v = plane == 0 ? of_edge.mesh.tail(h) : of_edge.mesh.head(h);
+    if (name.edge_is_of_a) return {SumFacetKind::kVertexFace, false, v, name.face};
+    return {SumFacetKind::kFaceVertex, false, name.face, v};
+  }
+  const int side = of_face.mesh.edge_of(3 * name.face + plane - 2);
+  SumFacet facet{SumFacetKind::kEdgeEdge, true, name.edge_is_of_a ? name.edge : side,
+                 name.edge_is_of_a ? side : name.edge};
+  return facet;
+}
+
+bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
+               const PrismName& name, const Vector3d* x, Prism* prism) {
+  const PlacedMesh& of_edge = name.edge_is_of_a ? pair.a() : pair.b();
+  const PlacedMesh& of_face = name.edge_is_of_a ? pair.b() : pair.a();
+  const ContactBody::Edge& edge = (name.edge_is_of_a ? a : b).edge(name.edge);
+  const Vector3d &tail = of_edge.points[edge.tail], &head = of_edge.points[edge.head];
+  const double sign = name.edge_is_of_a ? 1.0 : -1.0;  // of the edge's points in the sums
+  const Triangle& corners = of_face.mesh.face(name.face);
+  Vector3d face[3];
+  for (int k = 0; k < 3; ++k) face[k] = of_face.points[corners[k]];
+  const Vector3d middle = sign * (0.5 * (tail + head) - (face[0] + face[1] + face[2]) / 3.0);
+  prism->name = name;
+  const Vector3d along = head - tail;
+  const auto set = [&](int k, const Vector3d& normal, double error, const Vector3d& at) {
+    // Most prisms are asked about a point that one of their planes leaves out.
+    if (x != nullptr && normal.dot(*x - at) * normal.dot(middle - at) <= 0.0) return false;
+    const double length = normal.norm();
+    if (!(length > 0.0)) return false;
+    Vector3d unit = normal / length;
+    double height = unit.dot(at);
+    const double inner = unit.dot(middle);
+    if (inner > height) unit = -unit, height = -height;
+    const double slack = kReach * (2.0 * error / length + 4.0 * kUnit) + kPointSlack;
+    if (!(slack < kWorstSlack) || !(std::abs(inner) >= 0.0)) return false;
+    prism->normals[k] = unit;
+    prism->offsets[k] = height - slack;
+    // The middle must be within, or the side that was taken for the inner one may not be it.
+    return unit.dot(middle) < prism->offsets[k];
+  };
+  const FacePlane& plane = of_face.planes[name.face];
+  if (!set(0, plane.normal, plane.error, sign * (tail - face[0])) ||
+      !set(1, plane.normal, plane.error, sign * (head - face[0]))) {
+    return false;
+  }
+  const double along_size = along.cwiseAbs().maxCoeff();
+  const double along_error = 1.01 * (2.0 * of_edge.point_error + kUnit * along_size);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d side = face[(k + 1) % 3] - face[k];
+    const double side_size = side.cwiseAbs().maxCoeff();
+    const double side_error = 1.01 * (2.0 * of_face.point_error + kUnit * side_size);
+    // As EstimatePlane's.
+    const double error =
+        1.01 *
+        (4.1 * kUnit * along_size * side_size +
+         2.0 * (along_size * side_error + side_size * along_error + along_error * side_error));
+    if (!set(2 + k, along.cross(side), error, sign * (tail - face[k]))) return false;
+  }
+  return true;
+}
+
+void PrismList::Clear() {
+  prisms_.clear();
+  blocks_.clear();
+}
+
+int PrismList::Add(const Prism& prism) {
+  const int number = size();
+  const int slot = number % kWindow, lane = slot % kWidth;
+  prisms_.push_back(prism);
+  if (slot / kWidth >= static_cast<int>(blocks_.size())) {
+    blocks_.emplace_back();
+    for (auto& row : blocks_.back().offset) std::fill(row, row + kWidth, -1e300);
+    for (auto& axis : blocks_.back().normal) {
+      for (auto& row : axis) std::fill(row, row + kWidth, 0.0);
+    }
+  }
+  Block& block = blocks_[slot / kWidth];
+  for (int k = 0; k < kPrismPlanes; ++k) {
+    for (int axis = 0; axis < 3; ++axis) block.normal[axis][k][lane] = prism.normals[k][axis];
+    block.offset[k][lane] = prism.offsets[k];
+  }
+  return number;
+}
+
+TOUCHSTONE_VECTOR_CLONES
+void PrismList::Margins(const Block& block, const Vector3d& x, double margins[kWidth]) {
+  double least[kWidth];
+  for (int i = 0; i < kWidth; ++i) least[i] = 1e300;
+  for (int k = 0; k < kPrismPlanes; ++k) {
+    for (int i = 0; i < kWidth; ++i) {
+      const double margin =
+          block.offset[k][i] - (block.normal[0][k][i] * x[0] + block.normal[1][k][i] * x[1] +
+                                block.normal[2][k][i] * x[2]);
+      least[i] = margin < least[i] ? margin : least[i];
+    }
+  }
+  for (int i = 0; i < kWidth; ++i) margins[i] = least[i];
+}
+
+int PrismList::Find(const Vector3d& x, double least) const {
+  int best = -1;
+  double margins[kWidth];
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    Margins(blocks_[b], x, margins);
+    for (int i = 0; i < kWidth; ++i) {
+      if (margins[i] > least) least = margins[i], best = static_cast<int>(b) * kWidth + i;
+    }
+  }
+  if (best < 0) return -1;
+  // Slot to the latest number in it.
+  const int last = size() - 1;
+  return last - (last - best) % kWindow;
+}
+
+void BallList::Add(const BurialBall& ball) {
+  if (balls_.size() < kCapacity) {
+    balls_.push_back(ball);
+    return;
+  }
+  next_ = (next_ + 1) % kCapacity;
+  balls_[next_] = ball;
+}
+
+bool BallList::Holds(const Vector3d& centre, double radius) const {
+  for (const BurialBall& ball : balls_) {
+    const double rest = ball.radius - radius;
+    if (rest > 0.0 && (centre - ball.centre).squaredNorm() < rest * rest) return true;
+  }
+  return false;
+}
+
+bool BallList::Holds(std::span<const Vector3d> points, double margin) const {
+  for (const BurialBall& ball : balls_) {
+    const double rest = ball.radius - margin;
+    if (!(rest > 0.0)) continue;
+    if (std::all_of(points.begin(), points.end(), [&](const Vector3d& x) {
+          return (x - ball.centre).squaredNorm() < rest * rest;
+        })) {
+      return true;
+    }
+  }
+  return false;
+}
+
+const BurialBall* BallList::Find(const Vector3d& x, double least) const {
+  const BurialBall* best = nullptr;
+  for (const BurialBall& ball : balls_) {
+    const double depth = ball.radius - (x - ball.centre).norm();
+    if (depth > least) least = depth, best = &ball;
+  }
+  return best;
+}
+
+}  // namespace touchstone::internal

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+//
+// What proves that points lie in M°: open convex sets within it.
+#ifndef TOUCHSTONE_CORE_CPD_BURIAL_INTERNAL_H_
+#define TOUCHSTONE_CORE_CPD_BURIAL_INTERNAL_H_
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "touchstone/core/cpd/contact_body.h"
+#include "touchstone/core/mesh/mesh_pair.h"
+#include "touchstone/core/minkowski/convolution.h"
+
+namespace touchstone::internal {
+
+// An edge of one body and a face of the other: where the edge passes through the face, the solids
+// overlap, so edge ⊕ -face (or face ⊕ -edge) is a prism whose inside lies in M°.
+struct PrismName {
+  bool edge_is_of_a;
+  int edge, face;
+  friend auto operator<=>(const PrismName&, const PrismName&) = default;
+};
+
+inline constexpr int kPrismPlanes = 5;  // two ends, three sides
+
+// In the pair's scaled frame. Points with normal . x < offset for all five lie in M°, for offsets
+// that the bounds on all roundings have been taken from.
+struct Prism {
+  PrismName name;
+  Eigen::Vector3d normals[kPrismPlanes];
+  double offsets[kPrismPlanes];
+
+  // The least of offset - normal . x: positive within.
+  double Margin(const Eigen::Vector3d& x) const;
+};
+
+// Points within `radius` of `centre` lie in M°: the bodies have balls in them, or one a ball and
+// the other a point, that overlap there.
+struct BurialBall {
+  Eigen::Vector3d centre;
+  double radius;
+};
+
+// The facet whose plane bounds a prism.
+SumFacet FacetOf(const MeshPair& pair, const PrismName& name, int plane);
+
+// The prism, if x lies in it, or without regard to x if that is null; false also where rounding
+// leaves nothing of it.
+bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
+               const PrismName& name, const Eigen::Vector3d* x, Prism* prism);
+
+// The prisms met so far. Those of the last kWindow are searched, eight at a time.
+class PrismList {
+ public:
+  void Clear();
+  int Add(const Prism& prism);  // its number
+  const Prism& prism(int i) const { return prisms_[i]; }
+  int size() const { return static_cast<int>(prisms_.size()); }
+  // The prism that holds x with the largest margin, if that is above `least`; else -1.
+  int Find(const Eigen::Vector3d& x, double least) const;
+
+ private:
+  static constexpr int kWidth = 8, kWindow = 512;
+  struct alignas(64) Block {
+    double normal[3][kPrismPlanes][kWidth];
+    double offset[kPrismPlanes][kWidth];
+  };
+  static void Margins(const Block& block, const Eigen::Vector3d& x, double margins[kWidth]);
+
+  std::vector<Prism> prisms_;
+  std::vector<Block> blocks_;
+};
+
+// Balls met so far, the latest kCapacity of them.
+class BallList {
+ public:
+  void Clear() { balls_.clear(); }
+  void Add(const BurialBall& ball);
+  // Whether one ball holds all points within `radius` of `centre`.
+  bool Holds(const Eigen::Vector3d& centre, double radius) const;
+  // Whether one ball holds all the points, each with `margin` to spare.
+  bool Holds(std::span<const Eigen::Vector3d> points, double margin) const;
+  // The ball that holds x deepest, if deeper than `least`; else null.
+  const BurialBall* Find(const Eigen::Vector3d& x, double least) const;
+  std::span<const BurialBall> balls() const { return balls_; }
+
+ private:
+  static constexpr std::size_t kCapacity = 48;
+  std::vector<BurialBall> balls_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace touchstone::internal
+
+#endif  // TOUCHSTONE_CORE_CPD_BURIAL_INTERNAL_H_

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#ifndef TOUCHSTONE_CORE_CPD_DEPTH_SEARCH_INTERNAL_H_
+#define TOUCHSTONE_CORE_CPD_DEPTH_SEARCH_INTERNAL_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "touchstone/core/cpd/burial_internal.h"
+#include "touchstone/core/cpd/contact_name_internal.h"
+#include "touchstone/core/cpd/facet_piece_internal.h"
+#include "touchstone/core/cpd/mesh_penetration_depth.h"
+#include "touchstone/core/mesh/membership.h"
+#include "touchstone/core/minkowski/feature_tree.h"
+
+namespace touchstone::internal {
+
+// Which features' sums a pair of nodes stands for.
+enum class SumKind : std::uint8_t { kFaceVertex, kVertexFace, kEdgeEdge, kVertexVertex };
+
+// A node of either tree, or ~(8 node + lane) for a lane that holds an item.
+struct NodePair {
+  double near;
+  SumKind kind;
+  int a, b;
+};
+
+// A facet that was met, or a vertex of M in its place.
+struct MetFacet {
+  FacetFrame frame;
+  bool is_vertex = false;
+  SumVertex vertex;
+};
+
+struct DepthScratch {
+  // What the last answer was made of.
+  std::optional<ContactName> answer;
+  std::vector<PrismName> prism_names;
+  std::vector<std::pair<int, int>> ball_faces;
+
+  // Storage.
+  PlacedFeatureTree faces_a, vertices_a, edges_a, hollows_a, faces_b, vertices_b, edges_b,
+      hollows_b;
+  std::vector<NodePair> stack, later;
+  std::vector<MetFacet> facets;
+  std::vector<FacetPiece> pieces;
+  std::vector<int> free_pieces;
+  std::vector<std::pair<double, int>> heap;
+  std::vector<int> prism_uses;
+  PrismList prisms;
+  BallList balls;
+  MembershipCache membership;
+};
+
+// What the search found, in the pair's scaled frame.
+struct DepthAnswer {
+  MeshDepthStatus status = MeshDepthStatus::kSeparate;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // not in M°: proven
+  double at_error = 0.0;                         // off zero where `at` rounds an exact point
+  double lower = 0.0, upper = std::numeric_limits<double>::infinity();
+  bool is_exact = false, was_warm = false;
+  std::optional<ContactName> name;
+};
+
+// Runs the search; counts go into `result`.
+DepthAnswer SearchDepth(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
+                        const MeshDepthOptions& options, DepthScratch* scratch,
+                        MeshDepthResult* result);
+
+}  // namespace touchstone::internal
+
+#endif  // TOUCHSTONE_CORE_CPD_DEPTH_SEARCH_INTERNAL_H_

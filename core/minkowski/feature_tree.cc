@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/minkowski/feature_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "touchstone/core/base/vector_clones.h"
+
+namespace touchstone {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kWidth = kFeatureTreeWidth;
+constexpr double kPadding = 1e-5;
+// Measured on the paper's scenes: anything from 2 to 8 does.
+constexpr double kNormalWeight = 4.0;
+
+double SineOf(double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); }
+
+// A cone round two: all directions where they span a half-space or more.
+NormalCone Hull(const NormalCone& a, const NormalCone& b) {
+  if (a.cosine <= 0.0 || b.cosine <= 0.0) return {};
+  Vector3d axis = a.axis + b.axis;
+  const double length = axis.norm();
+  if (length < 1e-3) return {};
+  axis /= length;
+  const auto reach = [&](const NormalCone& cone) {
+    const double cosine = std::clamp(axis.dot(cone.axis), -1.0, 1.0);
+    return cosine * cone.cosine - SineOf(cosine) * SineOf(cone.cosine) - 1e-9;
+  };
+  const double cosine = std::min(reach(a), reach(b));
+  return cosine > 0.0 ? NormalCone{axis, cosine} : NormalCone{};
+}
+
+// Parts `items` at `at` by place, or by normal where these spread over more of the sphere than
+// places over the body's size.
+void PartAt(std::span<const FeatureBound> bounds, double size, std::span<int> items,
+            std::ptrdiff_t at) {
+  Vector3d low[2], high[2];
+  for (int k = 0; k < 2; ++k) low[k].setConstant(1e300), high[k].setConstant(-1e300);
+  for (const int item : items) {
+    const Vector3d* values[] = {&bounds[item].centre, &bounds[item].cone.axis};
+    for (int k = 0; k < 2; ++k) {
+      low[k] = low[k].cwiseMin(*values[k]);
+      high[k] = high[k].cwiseMax(*values[k]);
+    }
+  }
+  int place = 0, normal = 0;
+  const double extent = (high[0] - low[0]).maxCoeff(&place);
+  const double spread = (high[1] - low[1]).maxCoeff(&normal);
+  const bool is_by_normal = spread * size > kNormalWeight * extent;
+  const auto value = [&](int item) {
+    return is_by_normal ? bounds[item].cone.axis[normal] : bounds[item].centre[place];
+  };
+  std::nth_element(items.begin(), items.begin() + at, items.end(), [&](int i, int j) {
+    const double x = value(i), y = value(j);
+    return x != y ? x < y : i < j;
+  });
+}
+
+void PartIntoRuns(std::span<const FeatureBound> bounds, double extent, std::span<int> items,
+                  std::ptrdiff_t size, std::vector<std::span<int>>* runs) {
+  const std::ptrdiff_t count = (std::ssize(items) + size - 1) / size;
+  if (count <= 1) {
+    runs->push_back(items);
+    return;
+  }
+  const std::ptrdiff_t at = count / 2 * size;
+  PartAt(bounds, extent, items, at);
+  PartIntoRuns(bounds, extent, items.first(at), size, runs);
+  PartIntoRuns(bounds, extent, items.subspan(at), size, runs);
+}
+
+}  // namespace
+
+FeatureTree::FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> items) {
+  if (items.empty()) return;
+  Vector3d low = bounds[items[0]].centre, high = low;
+  for (const int item : items) {
+    low = low.cwiseMin(bounds[item].centre);
+    high = high.cwiseMax(bounds[item].centre);
+  }
+  extent_ = (high - low).maxCoeff();
+  AddNode(bounds, items);
+}
+
+FeatureBound FeatureTree::AddNode(std::span<const FeatureBound> bounds, std::span<int> items) {
+  const std::size_t index = nodes_.size();
+  nodes_.emplace_back();
+  std::ptrdiff_t size = 1;
+  while (size * kWidth < std::ssize(items)) size *= kWidth;
+  std::vector<std::span<int>> runs;
+  PartIntoRuns(bounds, extent_, items, size, &runs);
+  FeatureBound lanes[kWidth];
+  for (std::size_t lane = 0; lane < kWidth; ++lane) {
+    int child = 0;
+    if (lane < runs.size()) {
+      const std::span<int> run = runs[lane];
+      child = run.size() == 1 ? ~run[0] : static_cast<int>(nodes_.size());
+      lanes[lane] = run.size() == 1 ? bounds[run[0]] : AddNode(bounds, run);
+    }
+    const FeatureBound& bound = lanes[lane];
+    FeatureNode& node = nodes_[index];
+    for (int i = 0; i < 3; ++i) {
+      node.centre[i][lane] = bound.centre[i];
+      node.axis[i][lane] = bound.cone.axis[i];
+    }
+    node.radius[lane] = bound.radius * (1.0 + kPadding);
+    node.cosine[lane] = bound.cone.cosine <= 0.0 ? -2.0 : bound.cone.cosine - kPadding;
+    node.sine[lane] = bound.cone.cosine <= 0.0 ? 2.0 : SineOf(bound.cone.cosine) + kPadding;
+    node.children[lane] = child;
+  }
+  nodes_[index].lane_count = static_cast<int>(runs.size());
+  FeatureBound all = lanes[0];
+  Vector3d low = lanes[0].centre, high = low;
+  for (std::size_t lane = 0; lane < runs.size(); ++lane) {
+    if (lane > 0) all.cone = Hull(all.cone, lanes[lane].cone);
+    low = low.cwiseMin(Vector3d(lanes[lane].centre.array() - lanes[lane].radius));
+    high = high.cwiseMax(Vector3d(lanes[lane].centre.array() + lanes[lane].radius));
+  }
+  all.centre = 0.5 * (low + high);
+  all.radius = 0.0;
+  for (std::size_t lane = 0; lane < runs.size(); ++lane) {
+    all.radius = std::max(
+        all.radius, (lanes[lane].centre - all.centre).norm() * (1.0 + 1e-12) + lanes[lane].radius);
+  }
+  return all;
+}
+
+void PlacedFeatureTree::Place(const FeatureTree& tree, const Eigen::Matrix3d& rotation,
+                              const Vector3d& translation, double scale, double distance,
+                              double angle) {
+  tree_ = &tree;
+  rotation_ = rotation;
+  translation_ = translation;
+  scale_ = scale;
+  distance_ = distance;
+  cosine_ = std::cos(angle);
+  sine_ = std::sin(angle);
+  nodes_.resize(tree.nodes().size());
+  stamps_.resize(nodes_.size(), stamp_);
+  ++stamp_;
+}
+
+void PlacedFeatureTree::PlaceNode(int i) {
+  const FeatureNode& from = tree_->nodes()[i];
+  FeatureNode& to = nodes_[i];
+  stamps_[i] = stamp_;
+  for (int k = 0; k < 3; ++k) {
+    for (int lane = 0; lane < kWidth; ++lane) {
+      to.centre[k][lane] = scale_ * (rotation_(k, 0) * from.centre[0][lane] +
+                                     rotation_(k, 1) * from.centre[1][lane] +
+                                     rotation_(k, 2) * from.centre[2][lane] + translation_[k]);
+      to.axis[k][lane] = rotation_(k, 0) * from.axis[0][lane] +
+                         rotation_(k, 1) * from.axis[1][lane] +
+                         rotation_(k, 2) * from.axis[2][lane];
+    }
+  }
+  for (int lane = 0; lane < kWidth; ++lane) {
+    to.radius[lane] = scale_ * from.radius[lane] + 0x1p-46 + distance_;
+    const double cosine = from.cosine[lane] * cosine_ - from.sine[lane] * sine_;
+    const bool is_wide = from.cosine[lane] < -1.0 || cosine <= 0.0;
+    to.cosine[lane] = is_wide ? -2.0 : cosine;
+    to.sine[lane] = is_wide ? 2.0 : from.sine[lane] * cosine_ + from.cosine[lane] * sine_;
+    to.children[lane] = from.children[lane];
+  }
+  to.lane_count = from.lane_count;
+}
+
+// Cones meet if the angle between A's axis and minus B's is at most the sum of their angles. Of the
+// normals within a cone the one nearest to the centre c of the sums rises above the plane across it
+// by |c| cos(θ - α), θ the angle between c and the axis, or more: with p = c.axis cos α + radius,
+// the origin is below all planes unless p < 0 and p^2 > |c x axis|^2 sin^2 α.
+//
+// Lanes of X run in vectors, those of Y one after the other. X may be either body's: seen from B, c
+// and the cones turn to their negatives.
+TOUCHSTONE_INLINE void MeetingLanesOf(const FeatureNode& x, const FeatureNode& y, double limit,
+                                      double least_rise, std::uint8_t masks[kWidth]) {
+  for (int j = 0; j < y.lane_count; ++j) {
+    std::int64_t meets[kWidth];
+    for (int i = 0; i < kWidth; ++i) {
+      const double c0 = x.centre[0][i] - y.centre[0][j], c1 = x.centre[1][i] - y.centre[1][j],
+                   c2 = x.centre[2][i] - y.centre[2][j];
+      const double squared = c0 * c0 + c1 * c1 + c2 * c2;
+      const double radius = x.radius[i] + y.radius[j];
+      const double reach = limit + radius;
+      const double cosine = -(x.axis[0][i] * y.axis[0][j] + x.axis[1][i] * y.axis[1][j] +
+                              x.axis[2][i] * y.axis[2][j]);
+      const double least = x.cosine[i] * y.cosine[j] - x.sine[i] * y.sine[j];
+      const double of_x = c0 * x.axis[0][i] + c1 * x.axis[1][i] + c2 * x.axis[2][i];
+      const double of_y = -(c0 * y.axis[0][j] + c1 * y.axis[1][j] + c2 * y.axis[2][j]);
+      const double rise_x = of_x * x.cosine[i] + radius - least_rise;
+      const double rise_y = of_y * y.cosine[j] + radius - least_rise;
+      const double across_x = (squared - of_x * of_x) * (x.sine[i] * x.sine[i]);
+      const double across_y = (squared - of_y * of_y) * (y.sine[j] * y.sine[j]);
+      const bool x_is_wide = x.cosine[i] < -1.0, y_is_wide = y.cosine[j] < -1.0;
+      const bool meet = (squared <= reach * reach) & (x_is_wide | y_is_wide | (cosine >= least)) &
+                        (x_is_wide | (rise_x >= 0.0) | (across_x >= rise_x * rise_x)) &
+                        (y_is_wide | (rise_y >= 0.0) | (across_y >= rise_y * rise_y));
+      meets[i] = meet ? std::int64_t{1} << i : 0;
+    }
+    std::int64_t mask = 0;
+    for (int i = 0; i < kWidth; ++i) mask |= meets[i];
+    masks[j] = static_cast<std::uint8_t>(mask & ((1 << x.lane_count) - 1));
+  }
+}
+
+TOUCHSTONE_VECTOR_CLONES
+void MeetingFeatures(const FeatureNode& a, const FeatureNode& b, double limit, bool faces_away,
+                     std::uint8_t masks[kWidth]) {
+  const double least_rise = faces_away ? -0x1p-46 : -1e100;
+  for (int j = 0; j < kWidth; ++j) masks[j] = 0;
+  if (a.lane_count > 1 || b.lane_count == 1) {
+    MeetingLanesOf(a, b, limit, least_rise, masks);
+    return;
+  }
+  // B's lanes in vectors.
+  std::uint8_t turned[kWidth] = {};
+  MeetingLanesOf(b, a, limit, least_rise, turned);
+  for (int j = 0; j < b.lane_count; ++j) masks[j] = (turned[0] >> j) & 1;
+}
+
+FeatureNode LaneAlone(const FeatureNode& node, int lane) {
+  FeatureNode alone;
+  for (int to = 0; to < kWidth; ++to) {
+    for (int k = 0; k < 3; ++k) {
+      alone.centre[k][to] = node.centre[k][lane];
+      alone.axis[k][to] = node.axis[k][lane];
+    }
+    alone.radius[to] = node.radius[lane];
+    alone.cosine[to] = node.cosine[lane];
+    alone.sine[to] = node.sine[lane];
+    alone.children[to] = node.children[lane];
+  }
+  alone.lane_count = 1;
+  return alone;
+}
+
+}  // namespace touchstone

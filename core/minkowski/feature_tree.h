@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#ifndef TOUCHSTONE_CORE_MINKOWSKI_FEATURE_TREE_H_
+#define TOUCHSTONE_CORE_MINKOWSKI_FEATURE_TREE_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "touchstone/core/minkowski/gauss_map.h"
+
+namespace touchstone {
+
+// Where a feature is, and which way it can be in contact.
+struct FeatureBound {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0.0;
+  NormalCone cone;
+};
+
+inline constexpr int kFeatureTreeWidth = 8;
+
+// Eight bounds, their numbers in lanes. Lane l is round node children[l], or the item ~children[l].
+// A cone that bounds nothing has cosine -2.
+struct alignas(64) FeatureNode {
+  double centre[3][kFeatureTreeWidth];
+  double radius[kFeatureTreeWidth];
+  double axis[3][kFeatureTreeWidth];
+  double cosine[kFeatureTreeWidth], sine[kFeatureTreeWidth];
+  std::int32_t children[kFeatureTreeWidth];
+  int lane_count;
+};
+
+// A tree of spheres and normal cones over features of one kind, in the body's frame. Cosines and
+// sines are padded by 1e-5 and radii by 1e-5 of themselves: a pose may be off orthonormal by 1e-6.
+class FeatureTree {
+ public:
+  FeatureTree() = default;
+  // Over the items listed, item k with bounds[items[k]]. Complexity: O(n log n).
+  FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> items);
+
+  // Node 0 is the root.
+  std::span<const FeatureNode> nodes() const { return nodes_; }
+
+ private:
+  FeatureBound AddNode(std::span<const FeatureBound> bounds, std::span<int> items);
+
+  std::vector<FeatureNode> nodes_;
+  double extent_ = 0.0;
+};
+
+// A feature tree placed in another frame: x to scale (R x + t), node by node as they are asked for.
+// The tree must outlive it. Storage is used again. Bounds are padded, so that they hold of any
+// place where points are within `distance` and normals within `angle` of where they are.
+class PlacedFeatureTree {
+ public:
+  void Place(const FeatureTree& tree, const Eigen::Matrix3d& rotation,
+             const Eigen::Vector3d& translation, double scale, double distance = 0.0,
+             double angle = 0.0);
+
+  bool empty() const { return tree_ == nullptr || tree_->nodes().empty(); }
+  const FeatureNode& node(int i) {
+    if (stamps_[i] != stamp_) PlaceNode(i);
+    return nodes_[i];
+  }
+
+ private:
+  void PlaceNode(int i);
+
+  const FeatureTree* tree_ = nullptr;
+  Eigen::Matrix3d rotation_;
+  Eigen::Vector3d translation_;
+  double scale_ = 1.0, distance_ = 0.0, cosine_ = 1.0, sine_ = 0.0;
+  std::uint32_t stamp_ = 0;
+  std::vector<std::uint32_t> stamps_;
+  std::vector<FeatureNode> nodes_;
+};
+
+// Pairs of lanes whose sums a - b come within `limit` of the origin, whose cones meet (A's with
+// minus B's), and, if asked for, some facet of which may have the origin on its inner side: bit i
+// of masks[j] for lane i of A and lane j of B.
+void MeetingFeatures(const FeatureNode& a, const FeatureNode& b, double limit, bool faces_away,
+                     std::uint8_t masks[kFeatureTreeWidth]);
+
+// A lane alone, as a node, to go against the nodes of a deeper tree.
+FeatureNode LaneAlone(const FeatureNode& node, int lane);
+
+}  // namespace touchstone
+
+#endif  // TOUCHSTONE_CORE_MINKOWSKI_FEATURE_TREE_H_
