@@ -15,26 +15,6 @@ const ConvexPolyhedron& BodyOf(const Signs& signs, Body body) {
 
 int VertexOf(VertexPair pair, Body body) { return body == Body::kP ? pair.p : pair.q; }
 
-// How much further along n than `vertex` any point of the body can be, at most, in the body's own
-// lengths: 0 where every neighbour is certainly not further; infinity where that proves nothing.
-// `n` is given in the body's frame, each coordinate off by at most `n_error`.
-double Excess(const ConvexPolyhedron& shape, int vertex, const Eigen::Vector3d& n, double n_error) {
-  const double margin = shape.corner_margin(vertex);
-  if (!(margin > 0.0)) return HUGE_VAL;
-  // n.e with e = fl(w - v): one rounding of each coordinate of e, three of each term: below
-  // 4.01 u sum |n_i e_i|, plus the error of n.
-  const double per_length = 1.01 * (4.1 * kRoundingUnit * n.cwiseAbs().maxCoeff() + n_error);
-  const Eigen::Vector3d v = shape.vertex(vertex);
-  double worst = 0.0;
-  for (const int neighbor : shape.vertex_neighbors(vertex)) {
-    const Eigen::Vector3d edge = shape.vertex(neighbor) - v;
-    const double sum = edge.lpNorm<1>();  // at least |e|, at most sqrt(3) |e|
-    const double gain = n.dot(edge) + per_length * sum;
-    if (gain > 0.0) worst = std::max(worst, 1.8 * gain / sum);
-  }
-  return 1.01 * worst * shape.diameter_bound() / margin;
-}
-
 // max over M of n.x < 0, every vertex looked at once: max over P of n.a plus max over Q of
 // n.-(R b + t), each with the plain bound.
 bool AllBelow(const MinkowskiDifference& m, const Eigen::Vector3d& n) {
@@ -118,9 +98,9 @@ std::optional<Tier> ProveSeparatingDirection(Signs* signs, const Eigen::Vector3d
   const double turned_error = length * (3.1 * kRoundingUnit + m.pose().rotation_error());
   const bool q_certain = peak_q.certain && turned_error <= 0x1p-32 * length;
   if (peak_p.certain && q_certain) return Tier::kBound;
-  const VertexPair vertices = m.Vertices(support);
-  const double excess = (peak_p.certain ? 0.0 : Excess(m.p(), vertices.p, direction, 0.0)) +
-                        (q_certain ? 0.0 : Excess(m.q(), vertices.q, toward_q, turned_error));
+  const double excess =
+      (peak_p.certain ? 0.0 : m.p().support_table().Rise(support.p, direction, 0.0)) +
+      (q_certain ? 0.0 : m.q().support_table().Rise(support.q, toward_q, turned_error));
   if (height + 1.01 * m.scale() * excess < 0.0) return Tier::kBound;
   if (scan && AllBelow(m, direction)) return Tier::kScan;
   return std::nullopt;

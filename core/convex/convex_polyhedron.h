@@ -48,7 +48,7 @@ class ConvexPolyhedron {
   }
   // Three vertices of face f that are not collinear, counterclockwise from outside: its exact
   // plane.
-  const std::array<int, 3>& face_plane(int f) const { return data_->face_planes[f]; }
+  std::array<int, 3> face_plane(int f) const { return data_->face_plane(f); }
   // The exterior normal of face f: of unit length, each entry within 2^-46 of the exact one's.
   const Eigen::Vector3d& face_normal(int f) const { return data_->face_normals[f]; }
   // Faces in one plane share a number, the smallest of their indices.

@@ -89,6 +89,10 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
 
   auto data = std::make_shared<ConvexPolyhedronData>();
   data->vertices.assign(vertices.begin(), vertices.end());
+  std::size_t index_count = 0;
+  for (const std::vector<int>& loop : faces) index_count += loop.size();
+  data->face_vertices.reserve(index_count);
+  data->face_begin.reserve(faces.size() + 1);
   data->face_begin.push_back(0);
   for (const std::vector<int>& loop : faces) {
     data->face_vertices.insert(data->face_vertices.end(), loop.begin(), loop.end());
@@ -121,6 +125,8 @@ StatusOr<ConvexPolyhedron> ConvexPolyhedron::Build(std::span<const Vector3d> ver
   data->bounding_ellipsoid = BoundVertices(data->vertices, data->interior[0]);
   data->corner_margins = internal::CornerMargins(*data);
   data->support.Build(*data);
+  // A triangle is its own plane.
+  if (index_count == 3 * faces.size()) std::vector<std::array<int, 3>>().swap(data->face_planes);
   ConvexPolyhedron body(std::move(data));
   assert(body.FindValidationError().ok());
   return body;

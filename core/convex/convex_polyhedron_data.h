@@ -30,12 +30,18 @@ struct alignas(64) ConvexPolyhedronData {
 
   std::vector<Eigen::Vector3d> vertices;
   std::vector<int> face_begin, face_vertices, face_edges;
-  std::vector<std::array<int, 3>> face_planes;
+  std::vector<std::array<int, 3>> face_planes;  // empty where all faces are triangles
   std::vector<Eigen::Vector3d> face_normals;
   std::vector<int> facet_of_face;
   std::vector<Edge> edges;
   std::vector<int> vertex_begin, vertex_neighbors, vertex_edges, vertex_faces;
   std::vector<double> corner_margins;
+
+  std::array<int, 3> face_plane(int f) const {
+    if (!face_planes.empty()) return face_planes[f];
+    const int* loop = &face_vertices[3 * static_cast<std::size_t>(f)];
+    return {loop[0], loop[1], loop[2]};
+  }
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }
   int face_count() const { return static_cast<int>(face_begin.size()) - 1; }

@@ -40,9 +40,9 @@ struct Bend {
 Bend BendAt(const Orientation& orientation, const ConvexPolyhedronData& data, const Edge& edge) {
   // The right face is convex and lies on one side of the edge's line, so its vertices off that line
   // all lie on one side of the left plane. Its three plane vertices are not all on the line.
-  for (int v : data.face_planes[edge.right]) {
+  for (int v : data.face_plane(edge.right)) {
     if (v == edge.tail || v == edge.head) continue;
-    const int side = orientation.ExactSide(data.face_planes[edge.left], v);
+    const int side = orientation.ExactSide(data.face_plane(edge.left), v);
     if (side != 0) return {side, v};
   }
   return {0};
@@ -51,7 +51,7 @@ Bend BendAt(const Orientation& orientation, const ConvexPolyhedronData& data, co
 // Whether coplanar faces f and g lie on top of each other: their normals point opposite ways.
 bool IsFolded(const Orientation& orientation, const ConvexPolyhedronData& data,
               const FaceAxis& axis_f, int g) {
-  const std::array<int, 3>& plane = data.face_planes[g];
+  const std::array<int, 3> plane = data.face_plane(g);
   return orientation.ExactTurn(plane[0], plane[1], plane[2], axis_f.axis) != axis_f.sign;
 }
 
@@ -60,7 +60,7 @@ bool IsFolded(const Orientation& orientation, const ConvexPolyhedronData& data,
 int SideOfRay(const Orientation& orientation, const ConvexPolyhedronData& data, int face,
               const ScaledPoint& o, int a, int b) {
   double value = 0.0, error = 0.0, magnitude = 0.0;
-  for (int t : data.face_planes[face]) {
+  for (int t : data.face_plane(face)) {
     const Estimate estimate = Orientation::TriageSide(o, orientation.point(a), orientation.point(b),
                                                       orientation.point(t));
     value += estimate.value;
@@ -73,7 +73,7 @@ int SideOfRay(const Orientation& orientation, const ConvexPolyhedronData& data, 
   if (value < -error) return -1;
   const DyadicVector origin = ToDyadic(o.exact);
   DyadicVector ray;
-  for (int t : data.face_planes[face]) {
+  for (int t : data.face_plane(face)) {
     ray = ray + (ToDyadic(orientation.point(t).exact) - origin);
   }
   return Determinant(ToDyadic(orientation.point(a).exact) - origin,
@@ -138,7 +138,7 @@ Status CheckLocalConvexity(const Orientation& orientation, const std::vector<Fac
 std::optional<int> FindVertexBeyond(const Orientation& orientation,
                                     const ConvexPolyhedronData& data, int f) {
   for (int v = 0; v < data.vertex_count(); ++v) {
-    if (orientation.ExactSide(data.face_planes[f], v) > 0) return v;
+    if (orientation.ExactSide(data.face_plane(f), v) > 0) return v;
   }
   return std::nullopt;
 }

@@ -25,7 +25,7 @@ class InteriorSearch {
   bool IsInside(const Vector3d& point) {
     const ScaledPoint scaled = orientation_.Scale(point);
     const auto below = [&](int f) {
-      return orientation_.ExactSide(data_.face_planes[f], scaled) < 0;
+      return orientation_.ExactSide(data_.face_plane(f), scaled) < 0;
     };
     if (!below(refusing_face_)) return false;
     for (int f = 0; f < data_.face_count(); ++f) {

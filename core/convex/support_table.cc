@@ -92,16 +92,23 @@ void SupportTable::AddCorners(const ConvexPolyhedronData& data) {
   if (corner_count_ <= kScanLimit) {
     FillScan(corners, vertices);
   } else {
-    blocks_.resize(corner_count_);
-    int block_count = corner_count_;
-    for (int i = 0; i < corner_count_; ++i) {
+    const auto further_blocks = [&](int i) {
       const int spare = std::max(graph.bends(vertices[i]) - kOwnNeighbors, 0);
+      return (spare + kOwnNeighbors - 1) / kOwnNeighbors;
+    };
+    int block_count = corner_count_;
+    for (int i = 0; i < corner_count_; ++i) block_count += further_blocks(i);
+    blocks_.resize(block_count);
+    int next = corner_count_;
+    for (int i = 0; i < corner_count_; ++i) {
+      const int count = further_blocks(i);
+      const double margin = data.corner_margins[vertices[i]];
       blocks_[i].corner = corners[i];
       blocks_[i].vertex = vertices[i];
-      blocks_[i].more_blocks = spare > 0 ? block_count : -1;
-      block_count += (spare + kOwnNeighbors - 1) / kOwnNeighbors;
+      blocks_[i].more_blocks = count > 0 ? next : -1;
+      blocks_[i].rise_per_slope = margin > 0.0 ? 1.01 * data.diameter_bound / margin : HUGE_VAL;
+      next += count;
     }
-    blocks_.resize(block_count);
   }
   std::vector<int> neighbors;
   for (int i = 0; i < corner_count_; ++i) {
@@ -299,6 +306,34 @@ SupportTable::Peak SupportTable::Climb(int start, const Eigen::Vector3d& directi
   const double scale = 1.0 / sum;
   long unbounded = std::numeric_limits<long>::max();
   return ClimbScaled(start, x * scale, y * scale, z * scale, &unbounded, steps);
+}
+
+TOUCHSTONE_VECTOR_CLONES
+double SupportTable::Rise(int corner, const Eigen::Vector3d& direction, double error) const {
+  const double sum = direction.lpNorm<1>();
+  // The lanes' claim holds for directions off by 2^-30 of their 1-norm.
+  if (!(sum > 0x1p-1000 && sum < 0x1p1000 && error <= 0x1p-31 * sum)) return HUGE_VAL;
+  const double scale = 1.0 / sum;
+  const Eigen::Vector3d n = scale * direction;
+  // n.e with e = fl(w - v): a rounding of each coordinate of n and of e, three of each term: below
+  // 5.01 u sum |n_i e_i|, plus the error of n.
+  const double per_length = 1.01 * (5.1 * 0x1p-52 * n.cwiseAbs().maxCoeff() + scale * error);
+  const Corner& v = this->corner(corner);
+  double highest = 0.0, steepest = 0.0;
+  VisitRivals(corner, static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2]),
+              [&](int rival) {
+                const Corner& w = this->corner(rival);
+                const Eigen::Vector3d edge(w.x - v.x, w.y - v.y, w.z - v.z);
+                const double length = edge.lpNorm<1>();  // at least |e|, at most sqrt(3) |e|
+                const double gain = n.dot(edge) + per_length * length;
+                highest = std::max(highest, gain);
+                if (gain > 0.0) steepest = std::max(steepest, 1.8 * gain / length);
+              });
+  if (highest <= 0.0) return 0.0;
+  // All corners were seen, or those that bound the cone of this one.
+  const double rise =
+      1.01 * sum * (scan_count_ > 0 ? highest : steepest * blocks_[corner].rise_per_slope);
+  return rise >= 0x1p-1000 ? rise : HUGE_VAL;  // or what underflow made of it
 }
 
 TOUCHSTONE_VECTOR_CLONES

@@ -74,6 +74,12 @@ class SupportTable {
   // From `start` to a corner that no neighbour beats in doubles; adds the moves to *steps.
   Peak Climb(int start, const Eigen::Vector3d& direction, int* steps) const;
 
+  // How much further along `direction` than this corner any point of the body is, at most: in the
+  // body's lengths times that of the direction, whose coordinates are each off by `error` at most.
+  // Zero where every neighbour is certainly lower, infinity where nothing can be proven. Looks only
+  // at corners that the lanes cannot rank, so near a peak it is a few of them.
+  double Rise(int corner, const Eigen::Vector3d& direction, double error) const;
+
   // The vertex found from the vertex `start` (-1: from the table); adds the moves to *steps.
   int Find(const Eigen::Vector3d& direction, int start, int* steps) const;
 
@@ -103,6 +109,9 @@ class SupportTable {
     Corner corner;
     std::int32_t vertex;       // of the body
     std::int32_t more_blocks;  // -1, or the first of its further blocks
+    // No point of the body is higher than the corner by more than this times the steepest slope of
+    // its edges: the diameter over ConvexPolyhedron::corner_margin.
+    double rise_per_slope;
   };
   static_assert(sizeof(Block) == 192);  // three cache lines
   static constexpr int kOwnNeighbors = kLaneCount - 1;

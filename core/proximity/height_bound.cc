@@ -11,20 +11,9 @@ namespace {
 // How much further along n than `vertex` any point of the body is at most, in the body's lengths.
 // `n` is in the body's frame, each coordinate off by at most `n_error`.
 double Rise(const ConvexPolyhedron& shape, int vertex, const Eigen::Vector3d& n, double n_error) {
-  const double margin = shape.corner_margin(vertex);
-  if (!(margin > 0.0)) return HUGE_VAL;
-  // n.e with e = fl(w - v): a rounding of each coordinate of e, three of each term: below 4.01 u
-  // sum |n_i e_i|, plus the error of n. |e| is at least |e|_1 / sqrt(3).
-  const double per_length = 1.01 * (4.1 * kRoundingUnit * n.cwiseAbs().maxCoeff() + n_error);
-  const Eigen::Vector3d v = shape.vertex(vertex);
-  double steepest = 0.0;
-  for (const int neighbor : shape.vertex_neighbors(vertex)) {
-    const Eigen::Vector3d edge = shape.vertex(neighbor) - v;
-    const double length = edge.lpNorm<1>();
-    const double gain = n.dot(edge) + per_length * length;
-    if (gain > 0.0) steepest = std::max(steepest, 1.8 * gain / length);
-  }
-  return 1.01 * steepest * shape.diameter_bound() / margin;
+  const SupportTable& table = shape.support_table();
+  const int corner = table.CornerOfVertex(vertex);
+  return table.vertex(corner) == vertex ? table.Rise(corner, n, n_error) : HUGE_VAL;
 }
 
 // max over P of n.a less min over Q of n.(R b + t), in the caller's lengths.

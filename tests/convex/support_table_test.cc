@@ -105,6 +105,46 @@ TEST(SupportTable, ACertainPeakIsThePeak) {
   EXPECT_GT(uncertain, 500);
 }
 
+// The same for a corner that is no certain peak: no vertex lies further along than the rise says,
+// for the direction or one that is off by as much as was allowed for.
+TEST(SupportTable, NothingLiesAboveTheRise) {
+  testing::Random random(9);
+  long zero = 0, finite = 0, tight = 0;
+  for (const auto& [name, mesh] : testing::AllShapes()) {
+    if (mesh.vertices.size() > 400) continue;
+    SCOPED_TRACE(name);
+    const ConvexPolyhedron body = testing::MustBuild(mesh);
+    const SupportTable& table = body.support_table();
+    for (int i = 0; i < 150; ++i) {
+      const Vector3d n = AnyDirection(body, &random);
+      if (!(n.lpNorm<1>() > 0.0)) continue;
+      int steps = 0;
+      const int corner =
+          i % 3 == 0 ? random.Int(0, table.corner_count() - 1) : table.Climb(0, n, &steps).corner;
+      const double error = i % 2 == 0 ? 0.0 : 0x1p-33 * n.lpNorm<1>();
+      const double rise = table.Rise(corner, n, error);
+      if (std::isinf(rise)) continue;
+      ++(rise == 0.0 ? zero : finite);
+      Vector3d changed = n;
+      for (int k = 0; k < 3; ++k) changed[k] += error * random.Int(-1, 1);
+      const DyadicVector top = ToDyadic(body.vertex(table.vertex(corner)));
+      double highest = 0.0;
+      for (const Vector3d& d : {n, changed}) {
+        const DyadicVector exact = ToDyadic(d);
+        for (int v = 0; v < body.vertex_count(); ++v) {
+          const Dyadic height = Dot(exact, ToDyadic(body.vertex(v)) - top);
+          ASSERT_LE((height - Dyadic(rise)).sign(), 0) << "vertex " << v;
+          highest = std::max(highest, d.dot(body.vertex(v) - body.vertex(table.vertex(corner))));
+        }
+      }
+      tight += rise > 0.0 && highest > 0.01 * rise;
+    }
+  }
+  EXPECT_GT(zero, 200);
+  EXPECT_GT(finite, 200);
+  EXPECT_GT(tight, 20);
+}
+
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kManyVertices = 100'000;  // slow builds look for other faults
 #else
