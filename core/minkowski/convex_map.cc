@@ -34,6 +34,20 @@ std::vector<int> Shuffled(int count) {
   return order;
 }
 
+// Near directions get near numbers, for the cache's sake: the bits of the three coordinates take
+// turns.
+std::uint32_t CurvePosition(const Vector3d& direction) {
+  std::uint32_t position = 0;
+  for (int bit = 9; bit >= 0; --bit) {
+    for (int i = 0; i < 3; ++i) {
+      const auto cell =
+          static_cast<std::uint32_t>(511.5 * (1.0 + std::clamp(direction[i], -1.0, 1.0)));
+      position = position << 1 | (cell >> bit & 1);
+    }
+  }
+  return position;
+}
+
 bool IsConvex(const TriangleMesh& mesh) {
   if (mesh.components().size() != 1) return false;
   for (int e = 0; e < mesh.edge_count(); ++e) {
@@ -114,8 +128,8 @@ class ConvexMap::Assembler {
     MergeCorners();
     NumberFaces();
     std::vector<bool> is_done(polyhedron_.corner_count());
-    for (int t = 0; t < polyhedron_.corner_count(); ++t) {
-      if (!polyhedron_.is_alive(t) || is_done[Root(t)]) continue;
+    for (const int t : CornersInOrder()) {
+      if (is_done[Root(t)]) continue;
       for (int k = 0; k < 3 && !is_done[Root(t)]; ++k) {
         if (is_flat_[t][k]) continue;
         is_done[Root(t)] = true;
@@ -145,13 +159,34 @@ class ConvexMap::Assembler {
         edge_counts[polyhedron_.corner(t)[k]] += !is_flat_[t][k];
       }
     }
-    face_of_plane_.assign(polyhedron_.plane_count(), -1);
+    std::vector<std::pair<std::uint32_t, int>> planes;
     for (int i = 0; i < polyhedron_.plane_count(); ++i) {
-      if (edge_counts[i] < 3) continue;
+      if (edge_counts[i] >= 3) planes.emplace_back(CurvePosition(polyhedron_.direction(i).unit), i);
+    }
+    face_of_plane_.assign(polyhedron_.plane_count(), -1);
+    for (const int i : Second(&planes)) {
       face_of_plane_[i] = static_cast<int>(data_.planes.size());
       data_.directions.push_back(polyhedron_.direction(i).unit);
       data_.planes.push_back({polyhedron_.plane(i).normal, polyhedron_.plane(i).offset});
     }
+  }
+
+  std::vector<int> CornersInOrder() const {
+    std::vector<std::pair<std::uint32_t, int>> corners;
+    for (int t = 0; t < polyhedron_.corner_count(); ++t) {
+      if (!polyhedron_.is_alive(t)) continue;
+      Vector3d sum = Vector3d::Zero();
+      for (const int plane : polyhedron_.corner(t)) sum += polyhedron_.direction(plane).unit;
+      corners.emplace_back(CurvePosition(sum.normalized()), t);
+    }
+    return Second(&corners);
+  }
+
+  static std::vector<int> Second(std::vector<std::pair<std::uint32_t, int>>* pairs) {
+    std::sort(pairs->begin(), pairs->end());
+    std::vector<int> second;
+    for (const auto& [position, item] : *pairs) second.push_back(item);
+    return second;
   }
 
   int Root(int t) {

@@ -31,10 +31,15 @@ constexpr double kRounding = 0x1p-47;
 // Entries of a pose from two world poses are off by `error`; cofactors by 2 (2 + 1e-5) of it, as a
 // matrix by three times that.
 constexpr double kPoseFactor = 13.0;
-// Travel is a sum of doubles: beyond this, its last places are above kRounding / 8, and all is
-// found anew.
-constexpr double kGreatestTravel = 8.0;
+// Travel is a sum of doubles, each addition off by at most kTravelUnit / 2 up to here; beyond, all
+// is found anew.
+constexpr double kGreatestTravel = 8.0, kTravelUnit = 0x1p-49;
 constexpr double kNever = -1.0;
+// How far round a feature its candidates are listed: so many steps of the present motion, but not
+// so far that lists get long. Motion that would use up a list in a few steps gets none: only what
+// a feature meets.
+constexpr double kStepsOfReach = 16.0, kFewSteps = 8.0;
+constexpr double kLeastReach = 0.02, kGreatestReach = 0.06;
 
 // At least the 2-norm: the root of the greatest eigenvalue of MᵀM, at most the eighth root of the
 // trace of its fourth power.
@@ -78,6 +83,18 @@ MappedMesh::MappedMesh(const TriangleMesh& mesh_in)
   for (int e = 0; e < mesh.edge_count(); ++e) {
     along.push_back(internal::DirectionOfEdge(mesh, e).unit);
   }
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    cone_begin.push_back(static_cast<int>(cone_sides.size()));
+    const auto essential = gauss_map.essential_neighbors(v);
+    for (const int h : mesh.vertex_half_edges(v)) {
+      const int e = mesh.edge_of(h);
+      const bool bounds =
+          gauss_map.vertex_kind(v) == VertexKind::kSpecial ||
+          std::find(essential.begin(), essential.end(), mesh.head(h)) != essential.end();
+      if (bounds) cone_sides.push_back(mesh.half_edge_of(e) == h ? along[e] : Vector3d(-along[e]));
+    }
+  }
+  cone_begin.push_back(static_cast<int>(cone_sides.size()));
 }
 
 class DynamicConvolution::State {
@@ -110,7 +127,12 @@ class DynamicConvolution::State {
     const Matrix3d cofactors = CofactorsOf(rotation);
     margin_ = kRounding + kPoseFactor * pair.pose().rotation_error();
     if (rotation_) {
-      travel_ += std::max(NormBound(rotation - *rotation_), NormBound(cofactors - *cofactors_));
+      const double step =
+          std::max(NormBound(rotation - *rotation_), NormBound(cofactors - *cofactors_));
+      // Rounded, it must not fall short.
+      if (step > 0.0) travel_ += step + kTravelUnit;
+      const double reach = std::clamp(kStepsOfReach * step, kLeastReach, kGreatestReach);
+      reach_ = reach > kFewSteps * step ? reach : 0.0;
     }
     if (!rotation_ || !(travel_ < kGreatestTravel)) StartAnew();
     rotation_ = rotation;
@@ -132,7 +154,7 @@ class DynamicConvolution::State {
       queue_.pop_back();
       if (entry.until == UntilOf(entry.feature)) due_.push_back(entry.feature);
     }
-    // Edges begin where their faces' directions lie.
+    // Neighbours follow each other, and walks are short.
     std::sort(due_.begin(), due_.end());
     due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
     for (const int feature : due_) Refresh(feature);
@@ -146,8 +168,9 @@ class DynamicConvolution::State {
 
   std::span<const int> VerticesOnFace(int side, int face) {
     const int i = feature_of_face_[side][face];
-    Require(side, i);
-    return directions_[side][i].vertices;
+    const DirectionFeature& feature = directions_[side][i];
+    if (feature.until <= travel_ && feature.pose != pose_) Refresh(side == 0 ? i : FirstOfB() + i);
+    return feature.vertices;
   }
 
   bool traces_a() const { return traced_ == 0; }
@@ -177,20 +200,20 @@ class DynamicConvolution::State {
   const Counts& counts() const { return counts_; }
 
  private:
-  // A direction of one body's map in the map of the other.
-  struct DirectionFeature {
-    int face;                   // of its own map
-    int region = 0;             // of the other's map, where it lies, or near which
-    bool is_decided = false;    // by doubles: it lies within the region
-    int pose = 0;               // the last at which it was looked at
-    double until = kNever;      // the travel at which what it found may end
+  // A direction of one body's map in the map of the other, or an edge of one mesh in the map of the
+  // other. The candidates are all that it can meet before the travel is `listed_until`.
+  struct Feature {
+    int region = 0;                                // of the other's map, where the last walk ended
+    int pose = 0;                                  // the last at which it was looked at
+    double until = kNever, listed_until = kNever;  // what was found holds until then
+    std::vector<int> candidates;
+  };
+  struct DirectionFeature : Feature {
+    int face = 0;               // of its own map
     std::vector<int> vertices;  // that support it, sorted
   };
-  // An edge of one mesh in the map of the other.
-  struct EdgeFeature {
-    int edge;
-    int pose = 0;
-    double until = kNever;
+  struct EdgeFeature : Feature {
+    int edge = 0;
     std::vector<SumFacet> facets;  // sorted
   };
   // In a heap by `until`; void where that is not the feature's any more.
@@ -223,7 +246,7 @@ class DynamicConvolution::State {
       const int face = map.face_of_mesh_face(f);
       if (feature_of_direction[face] < 0) {
         feature_of_direction[face] = static_cast<int>(directions_[side].size());
-        directions_[side].push_back({face, 0, false, 0, kNever, {}});
+        directions_[side].emplace_back().face = face;
       }
       feature_of_face_[side].push_back(feature_of_direction[face]);
     }
@@ -235,7 +258,7 @@ class DynamicConvolution::State {
     for (int e = 0; e < mesh.edge_count(); ++e) {
       if (mesh.edge_kind(e) != EdgeKind::kConvex) continue;
       feature_of_edge_[e] = static_cast<int>(edges_.size());
-      edges_.push_back({e, 0, kNever, {}});
+      edges_.emplace_back().edge = e;
     }
   }
 
@@ -243,9 +266,9 @@ class DynamicConvolution::State {
     travel_ = 0.0;
     queue_.clear();
     for (auto& directions : directions_) {
-      for (DirectionFeature& feature : directions) feature.until = kNever;
+      for (Feature& feature : directions) feature.until = feature.listed_until = kNever;
     }
-    for (EdgeFeature& feature : edges_) feature.until = kNever;
+    for (Feature& feature : edges_) feature.until = feature.listed_until = kNever;
     for (int i = 0; i < counts_.features; ++i) queue_.push_back({kNever, i});
   }
 
@@ -255,10 +278,19 @@ class DynamicConvolution::State {
     return *signs_;
   }
 
-  // A sign whose value was v keeps it while the matrices have changed by less than |v| less the
-  // errors of both poses; the search has taken off one `margin` and the comparison takes another.
-  double Until(double slack) const {
-    return slack > margin_ ? travel_ + (slack - margin_) : travel_;
+  // How far the travel may go while a sign keeps whose value was v. Matrices change by no more than
+  // the travel, but for the errors of both poses.
+  double Until(double v) const {
+    const double slack = v - 2.0 * margin_;
+    return slack > 0.0 ? travel_ + slack : travel_;
+  }
+
+  // How far it may go while a list of all that lies within reach_ is complete. The way between the
+  // poses is taken straight from matrix to matrix: cofactors then stray from theirs by at most a
+  // quarter of the square.
+  double ListedUntil() const {
+    const double slack = 0.98 * reach_ - 2.0 * margin_;
+    return slack > 0.0 ? travel_ + slack : travel_;
   }
 
   void Refresh(int feature) {
@@ -276,52 +308,62 @@ class DynamicConvolution::State {
     std::push_heap(queue_.begin(), queue_.end());
   }
 
-  // Brings a direction up to date, unless it is.
-  void Require(int side, int i) {
-    const DirectionFeature& feature = directions_[side][i];
-    if (feature.until > travel_ || feature.pose == pose_) return;
-    Refresh(side == 0 ? i : FirstOfB() + i);
+  // The greatest height of a neighbour that bounds the cone: negative where x is within.
+  static double HeightOverCone(const MappedMesh& body, int v, const Vector3d& x) {
+    double height = -std::numeric_limits<double>::infinity();
+    for (int i = body.cone_begin[v]; i < body.cone_begin[v + 1]; ++i) {
+      height = std::max(height, body.cone_sides[i].dot(x));
+    }
+    return height;
+  }
+
+  // The vertices over the regions near x; special ones by their own neighbours.
+  void ListVertices(int side, const Vector3d& x, DirectionFeature* feature) {
+    const MappedMesh& other = bodies_[1 - side];
+    // From where it was, or where the last one was found, whichever is nearer.
+    const int last = last_regions_[side];
+    const auto nearness = [&](int region) { return other.convex_map.middle(region).dot(x); };
+    const int start = nearness(feature->region) >= nearness(last) ? feature->region : last;
+    MapSearch& search = searches_[side];
+    const double radius = std::max(reach_, 2.0 * margin_);
+    search.FindPoint(x, start, 2.0 * margin_, radius);
+    counts_.regions += std::ssize(search.regions());
+    last_regions_[side] = feature->region = search.regions().front();
+    std::vector<int>& candidates = feature->candidates;
+    candidates.clear();
+    for (const int r : search.regions()) {
+      const auto over = other.convex_map.vertices_over(r);
+      candidates.insert(candidates.end(), over.begin(), over.end());
+    }
+    for (const int v : other.special_vertices) {
+      if (HeightOverCone(other, v, x) <= radius) candidates.push_back(v);
+    }
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    feature->listed_until = ListedUntil();
   }
 
   void RefreshDirection(int side, DirectionFeature* feature) {
     feature->pose = pose_;
-    MapSearch& search = searches_[side];
-    const ConvexMap& other = bodies_[1 - side].convex_map;
     const Vector3d x = turn_directions_[side] * bodies_[side].convex_map.direction(feature->face);
-    // From where it was, or where the last one was found, whichever is nearer.
-    const int last = last_regions_[side];
-    const int start =
-        other.middle(feature->region).dot(x) >= other.middle(last).dot(x) ? feature->region : last;
-    const double slack = search.FindPoint(x, start, 2.0 * margin_);
-    const int region = search.regions().front();
-    counts_.regions += std::ssize(search.regions());
-    last_regions_[side] = region;
-    const bool is_decided = slack > margin_;
-    feature->until = Until(slack);
-    if (is_decided && feature->is_decided && region == feature->region) return;
-    feature->region = region;
-    feature->is_decided = is_decided;
+    if (feature->listed_until <= travel_) ListVertices(side, x, feature);
+    feature->until = feature->listed_until;
     found_vertices_.clear();
-    for (const int r : search.regions()) {
-      const auto over = other.vertices_over(r);
-      found_vertices_.insert(found_vertices_.end(), over.begin(), over.end());
+    bool is_decided = true;
+    for (const int v : feature->candidates) {
+      const double height = HeightOverCone(bodies_[1 - side], v, x);
+      bool supports = height < 0.0;
+      if (std::abs(height) <= 2.0 * margin_) {
+        is_decided = false;
+        supports = signs().FaceVertex(SideOf(side), FacesOf(side, *feature).front(), v);
+      }
+      feature->until = std::min(feature->until, Until(std::abs(height)));
+      if (supports) found_vertices_.push_back(v);
     }
-    if (!is_decided) DecideVertices(side, *feature);
+    counts_.undecided += !is_decided;
+    if (feature->vertices == found_vertices_) return;
     NoteVertices(side, *feature);
     feature->vertices.swap(found_vertices_);
-  }
-
-  // Leaves of the vertices found, and of the special ones, those that support the feature's faces.
-  void DecideVertices(int side, const DirectionFeature& feature) {
-    ++counts_.undecided;
-    const std::vector<int>& special = bodies_[1 - side].special_vertices;
-    found_vertices_.insert(found_vertices_.end(), special.begin(), special.end());
-    std::sort(found_vertices_.begin(), found_vertices_.end());
-    found_vertices_.erase(std::unique(found_vertices_.begin(), found_vertices_.end()),
-                          found_vertices_.end());
-    const int face = FacesOf(side, feature).front();
-    std::erase_if(found_vertices_,
-                  [&](int v) { return !signs().FaceVertex(SideOf(side), face, v); });
   }
 
   void NoteVertices(int side, const DirectionFeature& feature) {
@@ -333,39 +375,59 @@ class DynamicConvolution::State {
     }
   }
 
+  // The convex edges of the other mesh along the edges of its map near the arc.
+  void ListEdges(const Vector3d& p, const Vector3d& q, const Vector3d& pole, EdgeFeature* feature) {
+    const ConvexMap& other = bodies_[1 - traced_].convex_map;
+    const int last = last_regions_[traced_];
+    const auto nearness = [&](int region) { return other.middle(region).dot(p); };
+    const int start = nearness(feature->region) >= nearness(last) ? feature->region : last;
+    MapSearch& search = searches_[traced_];
+    search.FindArc(p, q, pole, start, 2.0 * margin_, std::max(reach_, 2.0 * margin_));
+    counts_.regions += std::ssize(search.regions());
+    last_regions_[traced_] = feature->region = search.regions().front();
+    std::vector<int>& candidates = feature->candidates;
+    candidates.clear();
+    for (const int e : search.edges()) {
+      const auto along = other.edges_along(e);
+      candidates.insert(candidates.end(), along.begin(), along.end());
+    }
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    feature->listed_until = ListedUntil();
+  }
+
   void RefreshEdge(EdgeFeature* feature) {
     feature->pose = pose_;
     const MappedMesh &body = bodies_[traced_], &other = bodies_[1 - traced_];
-    const int h = body.mesh.half_edge_of(feature->edge);
-    const int left = feature_of_face_[traced_][h / 3];
-    const int right = feature_of_face_[traced_][body.mesh.twin(h) / 3];
-    Require(traced_, left);
-    const DirectionFeature& start = directions_[traced_][left];
-    const auto turned = [&](int direction) -> Vector3d {
-      return turn_directions_[traced_] *
-             body.convex_map.direction(directions_[traced_][direction].face);
+    // The arc of a convex edge runs counterclockwise round the half-edge, from the left face.
+    const auto normal = [](const MappedMesh& of, int h) -> const Vector3d& {
+      return of.convex_map.direction(of.convex_map.face_of_mesh_face(h / 3));
     };
-    // The arc of a convex edge runs counterclockwise round the half-edge.
-    MapSearch& search = searches_[traced_];
-    const double slack = search.FindArc(turned(left), turned(right),
-                                        turn_along_[traced_] * body.along[feature->edge],
-                                        start.region, start.is_decided, 2.0 * margin_);
-    counts_.regions += std::ssize(search.regions());
-    counts_.undecided += slack <= margin_;
-    feature->until = Until(slack);
-    found_edges_.clear();
-    for (const int e : search.edges()) {
-      const auto along = other.convex_map.edges_along(e);
-      found_edges_.insert(found_edges_.end(), along.begin(), along.end());
-    }
-    std::sort(found_edges_.begin(), found_edges_.end());
-    found_edges_.erase(std::unique(found_edges_.begin(), found_edges_.end()), found_edges_.end());
+    const int h = body.mesh.half_edge_of(feature->edge);
+    const Vector3d p = turn_directions_[traced_] * normal(body, h);
+    const Vector3d q = turn_directions_[traced_] * normal(body, body.mesh.twin(h));
+    const Vector3d pole = turn_along_[traced_] * body.along[feature->edge];
+    if (feature->listed_until <= travel_) ListEdges(p, q, pole, feature);
+    feature->until = feature->listed_until;
     found_facets_.clear();
-    for (const int e : found_edges_) {
-      const auto facet =
-          traced_ == 0 ? signs().EdgeEdge(feature->edge, e) : signs().EdgeEdge(e, feature->edge);
-      if (facet) found_facets_.push_back(*facet);
+    bool is_decided = true;
+    for (const int e : feature->candidates) {
+      const int g = other.mesh.half_edge_of(e);
+      const internal::ArcCrossing crossing = internal::CrossingOf(
+          p, q, pole, normal(other, g), normal(other, other.mesh.twin(g)), other.along[e]);
+      feature->until = std::min(feature->until, Until(crossing.slack()));
+      const int edge_a = traced_ == 0 ? feature->edge : e,
+                edge_b = traced_ == 0 ? e : feature->edge;
+      if (crossing.slack() <= 2.0 * margin_) {
+        is_decided = false;
+        if (const auto facet = signs().EdgeEdge(edge_a, edge_b)) found_facets_.push_back(*facet);
+      } else if (crossing.to_left > 0.0 || crossing.to_right > 0.0) {
+        // The facet's normal is along d_A x d_B where d_B.l_A > 0 (EdgeEdge): with p = -l_A, or
+        // r = l_A, where the other's arc passes to the right.
+        found_facets_.push_back({SumFacetKind::kEdgeEdge, crossing.to_right > 0.0, edge_a, edge_b});
+      }
     }
+    counts_.undecided += !is_decided;
     std::sort(found_facets_.begin(), found_facets_.end());
     ForEachMissing(feature->facets, found_facets_,
                    [&](const SumFacet& facet) { noted_.dropped.push_back(facet); });
@@ -378,12 +440,13 @@ class DynamicConvolution::State {
   void Cancel() {
     std::sort(changes_.dropped.begin(), changes_.dropped.end());
     std::sort(changes_.added.begin(), changes_.added.end());
-    SumChanges net;
+    net_.dropped.clear();
+    net_.added.clear();
     std::set_difference(changes_.dropped.begin(), changes_.dropped.end(), changes_.added.begin(),
-                        changes_.added.end(), std::back_inserter(net.dropped));
+                        changes_.added.end(), std::back_inserter(net_.dropped));
     std::set_difference(changes_.added.begin(), changes_.added.end(), changes_.dropped.begin(),
-                        changes_.dropped.end(), std::back_inserter(net.added));
-    changes_ = std::move(net);
+                        changes_.dropped.end(), std::back_inserter(net_.added));
+    std::swap(changes_, net_);
   }
 
   std::array<MappedMesh, 2> bodies_;
@@ -399,6 +462,7 @@ class DynamicConvolution::State {
   std::vector<int> due_;
   int pose_ = 0;
   double travel_ = 0.0;  // the sum of the changes of rotation so far
+  double reach_ = kLeastReach;
   double margin_ = 0.0;  // what a sign's value in doubles may be off by
   // Directions, and vectors along edges, of either body as the other sees them, B reversed.
   std::array<Matrix3d, 2> turn_directions_, turn_along_;
@@ -406,9 +470,9 @@ class DynamicConvolution::State {
   const MeshPair* pair_ = nullptr;
   std::optional<SupportSigns> signs_;
 
-  std::vector<int> found_vertices_, found_edges_;
+  std::vector<int> found_vertices_;
   std::vector<SumFacet> found_facets_;
-  SumChanges noted_, changes_;
+  SumChanges noted_, changes_, net_;
   Counts counts_;
 };
 

@@ -29,9 +29,12 @@ struct MappedMesh {
 
   TriangleMesh mesh;
   GaussMap gauss_map;
-  ConvexMap convex_map;                // conforming, of convex arcs
-  std::vector<int> special_vertices;   // of kind kSpecial
-  std::vector<Eigen::Vector3d> along;  // by edge, as its half-edge runs: unit, within 2^-51
+  ConvexMap convex_map;               // conforming, of convex arcs
+  std::vector<int> special_vertices;  // of kind kSpecial
+  // Unit vectors, each coordinate within 2^-51: by edge, as its half-edge runs; and from each
+  // vertex to the neighbours that bound its cone.
+  std::vector<Eigen::Vector3d> along, cone_sides;
+  std::vector<int> cone_begin;
 };
 
 // What an update did. Whatever was there before and is not dropped is kept. Sorted.
@@ -43,17 +46,19 @@ struct SumChanges {
 // are those of ReducedConvolution, ties included.
 //
 // A feature is a direction of A's map in the map of B, one of B's in the map of A, or an edge of
-// the body with more convex edges in the map of the other. It is found by walking, its partners are
-// the correspondence sets of where it lies, and with it is found by how much the rotation may
-// change (as a matrix, in the 2-norm) before any sign that this rests on can change. Until then it
-// is not looked at again. Where doubles cannot tell the signs apart from zero, all that is near is
-// taken, each pair is decided by exact signs, and it is looked at in every update.
+// the body with more convex edges in the map of the other. It is found by walking; its candidates
+// are the correspondence sets of all that lies within reach, and with each of them is known by how
+// much the rotation may change (as a matrix, in the 2-norm) before the two can begin or cease to
+// support each other. Until the first of these, or until motion has used up the reach, the feature
+// is not looked at again. Where doubles cannot tell a sign apart from zero, exact signs decide, and
+// the feature is looked at in every update.
 //
-// It is complete since regions of a conforming map lie wholly within a cone or outside it, and any
-// cone or arc that a feature meets is met within the regions that the walk visits (README).
+// It is complete since regions of a conforming map lie wholly within a cone or outside it, and each
+// arc is a chain of edges: whatever a feature comes to meet, the map has within reach (README).
 //
 // Complexity: an update looks at the features whose bound is used up, each in O(1) on round bodies
-// plus what it meets; O(log n) to find each. Memory is used again. Not for several threads at once.
+// plus what is within reach; O(log n) to find each. Memory is used again. Not for several threads
+// at once.
 class DynamicConvolution {
  public:
   DynamicConvolution(MappedMesh a, MappedMesh b);

@@ -1,18 +1,41 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/minkowski/map_search_internal.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <Eigen/Geometry>
 
 namespace touchstone::internal {
 
 using Eigen::Vector3d;
 
-void MapSearch::Begin() {
-  ++mark_;
-  regions_.clear();
-  edges_.clear();
+MapSearch::MapSearch(const ConvexMap& map)
+    : map_(map), region_marks_(map.vertex_count(), 0), edge_marks_(map.edge_count(), 0) {
+  for (int v = 0; v < map.vertex_count(); ++v) {
+    begin_.push_back(static_cast<int>(borders_.size()));
+    for (const int e : map.vertex_edges(v)) {
+      const bool is_left = map.edge(e).left == v;
+      borders_.push_back({is_left ? map.pole(e) : Vector3d(-map.pole(e)), e,
+                          is_left ? map.edge(e).right : map.edge(e).left});
+    }
+  }
+  begin_.push_back(static_cast<int>(borders_.size()));
+}
+
+// A step leads to a vertex of the map that is further along x, so none comes twice.
+int MapSearch::Walk(const Vector3d& x, int start, double margin) const {
+  int region = start;
+  while (true) {
+    double least = -margin;
+    int next = region;
+    for (const Border& border : BordersOf(region)) {
+      const double side = border.inward.dot(x);
+      if (side < least) {
+        least = side;
+        next = border.across;
+      }
+    }
+    if (next == region) return region;
+    region = next;
+  }
 }
 
 void MapSearch::Visit(int region) {
@@ -21,54 +44,53 @@ void MapSearch::Visit(int region) {
   regions_.push_back(region);
 }
 
-double MapSearch::FindPoint(const Vector3d& x, int start, double margin) {
-  Begin();
-  Visit(map_.Walk(x, start, margin));
-  double slack = std::numeric_limits<double>::infinity();
+// The regions within the radius hang together across edges within it. x lies in one of them; on
+// the straight way there from where the walk ended, x lies beyond every edge on the way, or on it.
+// (Within the margin of all borders of a needle can be far from the needle.)
+void MapSearch::FindPoint(const Vector3d& x, int start, double margin, double radius) {
+  ++mark_;
+  regions_.clear();
+  Visit(Walk(x, start, margin));
   for (std::size_t i = 0; i < regions_.size(); ++i) {
-    const int region = regions_[i];
-    for (const int e : map_.vertex_edges(region)) {
-      const MapEdge& edge = map_.edge(e);
-      const double height = map_.pole(e).dot(x);
-      const double side = (edge.left == region ? height : -height) - margin;
-      slack = std::min(slack, side);
-      // On the straight way from the first region to where x is, it lies beyond every edge on the
-      // way, or on it. Within the margin of all borders of a needle can be far from the needle.
-      if (side <= 0.0) Visit(edge.left == region ? edge.right : edge.left);
+    for (const Border& border : BordersOf(regions_[i])) {
+      const double side = border.inward.dot(x);
+      if (side > radius) continue;
+      if (side > margin) {
+        // Near the great circle: near the arc, too, unless x lies beyond one of its ends.
+        const MapEdge& edge = map_.edge(border.edge);
+        const Vector3d& pole = map_.pole(border.edge);
+        if (pole.cross(map_.direction(edge.tail)).dot(x) < -radius ||
+            map_.direction(edge.head).cross(pole).dot(x) < -radius) {
+          continue;
+        }
+      }
+      Visit(border.across);
     }
   }
-  return slack;
 }
 
-// With sides r, s of the ends of an edge seen from the arc, and p, q of the arc's ends seen from
-// the edge, the two meet iff r <= 0 <= s and q <= 0 <= p, or r >= 0 >= s and q >= 0 >= p. Each of
-// the two ways is open by the least, or shut by the greatest, of four numbers.
-double MapSearch::FindArc(const Vector3d& p, const Vector3d& q, const Vector3d& pole, int start,
-                          bool is_start_decided, double margin) {
-  double slack = std::numeric_limits<double>::infinity();
-  if (is_start_decided) {
-    Begin();
-    Visit(start);
-  } else {
-    slack = FindPoint(p, start, margin);
-  }
+// The arc begins where p lies, and leaves each region across an edge that it meets. So it does at
+// any pose on the way to one where it is asked about: an edge that it, or p, comes to meet on that
+// way is one that cannot be told from such here.
+void MapSearch::FindArc(const Vector3d& p, const Vector3d& q, const Vector3d& pole, int start,
+                        double margin, double radius) {
+  FindPoint(p, start, margin, margin);
+  edges_.clear();
   for (std::size_t i = 0; i < regions_.size(); ++i) {
-    const int region = regions_[i];
-    for (const int e : map_.vertex_edges(region)) {
-      if (edge_marks_[e] == mark_) continue;
-      edge_marks_[e] = mark_;
-      const MapEdge& edge = map_.edge(e);
-      const double r = pole.dot(map_.direction(edge.tail)), s = pole.dot(map_.direction(edge.head));
-      const double at_p = map_.pole(e).dot(p), at_q = map_.pole(e).dot(q);
-      const double to_left = std::min(std::min(-r, s), std::min(at_p, -at_q));
-      const double to_right = std::min(std::min(r, -s), std::min(-at_p, at_q));
-      slack = std::min(slack, std::min(std::abs(to_left), std::abs(to_right)) - margin);
-      if (to_left < -margin && to_right < -margin) continue;
-      edges_.push_back(e);
-      Visit(edge.left == region ? edge.right : edge.left);
+    for (const Border& border : BordersOf(regions_[i])) {
+      // Both ends of the arc on one side, by enough: most edges.
+      const double at_p = border.inward.dot(p), at_q = border.inward.dot(q);
+      if ((at_p > radius && at_q > radius) || (at_p < -radius && at_q < -radius)) continue;
+      if (edge_marks_[border.edge] == mark_) continue;
+      edge_marks_[border.edge] = mark_;
+      const MapEdge& edge = map_.edge(border.edge);
+      const ArcCrossing crossing = CrossingOf(p, q, pole, map_.direction(edge.tail),
+                                              map_.direction(edge.head), map_.pole(border.edge));
+      if (crossing.to_left < -radius && crossing.to_right < -radius) continue;
+      edges_.push_back(border.edge);
+      Visit(border.across);
     }
   }
-  return slack;
 }
 
 }  // namespace touchstone::internal
