@@ -17,12 +17,19 @@ constexpr int kVersion = 1;
 // A face or body line may announce no more than this.
 constexpr int kMaxElements = 10'000'000;
 
+// Decimals where they are short, for a reader; the shortest decimal reads back as the same double.
+std::string Number(double value) {
+  constexpr std::size_t kShort = 10;
+  std::string decimal = ShortDouble(value);
+  return decimal.size() <= kShort ? decimal : HexDouble(value);
+}
+
 void WriteRows(std::ostream& out, const Eigen::Matrix3d& rotation,
                const Eigen::Vector3d& translation) {
   for (int i = 0; i < 3; ++i) {
     out << "row";
-    for (int j = 0; j < 3; ++j) out << ' ' << HexDouble(rotation(i, j));
-    out << ' ' << HexDouble(translation[i]) << '\n';
+    for (int j = 0; j < 3; ++j) out << ' ' << Number(rotation(i, j));
+    out << ' ' << Number(translation[i]) << '\n';
   }
 }
 
@@ -40,7 +47,7 @@ void WritePose(std::ostream& out, const RelativePose& pose) {
 void WriteBody(std::ostream& out, std::string_view name, const ConvexPolyhedron& body) {
   out << "body " << name << ' ' << body.vertex_count() << ' ' << body.face_count() << '\n';
   for (const Eigen::Vector3d& v : body.vertices()) {
-    out << "v " << HexDouble(v[0]) << ' ' << HexDouble(v[1]) << ' ' << HexDouble(v[2]) << '\n';
+    out << "v " << Number(v[0]) << ' ' << Number(v[1]) << ' ' << Number(v[2]) << '\n';
   }
   for (int f = 0; f < body.face_count(); ++f) {
     out << 'f';
@@ -77,7 +84,8 @@ class Reader {
     Next("end");
     return {header.suite,   header.seed,      header.index,
             header.search,  header.certainty, header.early_exit,
-            header.finding, header.detail,    {std::move(p), std::move(q), pose, header.expected}};
+            header.finding, header.detail,    {std::move(p), std::move(q), pose, header.expected},
+            header.engine};
   }
 
  private:
@@ -87,7 +95,7 @@ class Reader {
     Search search = Search::kPortal;
     Certainty certainty = Certainty::kExact;
     bool early_exit = false;
-    std::string finding = "none", detail;
+    std::string finding = "none", detail, engine;
     std::optional<Verdict> expected;
   };
 
@@ -153,6 +161,8 @@ class Reader {
     const std::string& word = words_[1];
     if (keyword == "suite") {
       header.suite = word;
+    } else if (keyword == "engine") {
+      header.engine = word;
     } else if (keyword == "seed") {
       header.seed = Need(ParseInteger<std::uint64_t>(word), word);
     } else if (keyword == "index") {
@@ -234,15 +244,16 @@ class Reader {
 }  // namespace
 
 void WriteCase(std::ostream& out, const CaseFile& query) {
-  out << kMagic << ' ' << kVersion << '\n'
-      << "# Replay with: touchstone replay THIS_FILE\n"
-      << "suite " << query.suite << '\n'
+  out << kMagic << ' ' << kVersion << '\n' << "# Replay with: touchstone replay THIS_FILE\n";
+  for (const std::string& line : query.caption) out << "# " << OneLine(line) << '\n';
+  out << "suite " << query.suite << '\n'
       << "seed " << query.seed << '\n'
       << "index " << query.index << '\n'
       << "search " << ToString(query.search) << '\n'
       << "certainty " << ToString(query.certainty) << '\n'
       << "early-exit " << (query.early_exit ? "yes" : "no") << '\n'
       << "finding " << query.finding << ' ' << OneLine(query.detail) << '\n';
+  if (!query.engine.empty()) out << "engine " << query.engine << '\n';
   if (query.pair.expected) out << "expected " << ToString(*query.pair.expected) << '\n';
   WritePose(out, query.pair.pose);
   WriteBody(out, "p", query.pair.p);

@@ -81,6 +81,51 @@ TEST(FuzzCommand, MinutesEndIt) {
   EXPECT_GT(run.json()["total"]["queries"], 0);
 }
 
+// Ranks on one machine: more of them than processors, and as root.
+class OnRanks : public testing::TestWithParam<int> {};
+TEST_P(OnRanks, TheTotalsAreThoseOfOneProcess) {
+  const std::string mpiexec = TOUCHSTONE_MPIEXEC;
+  if (mpiexec.empty()) GTEST_SKIP() << "configured without MPI";
+  const TemporaryFolder folder("fuzz");
+  const ProgramRun whole =
+      RunProgram(std::string(kCommand) + "--threads 1 --out " + folder.path("whole"));
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const std::string launch = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " +
+                             mpiexec + " --oversubscribe -n " + std::to_string(GetParam()) + ' ' +
+                             TOUCHSTONE_PROGRAM + ' ' + kCommand + "--threads 1 --out " +
+                             folder.path("ranks");
+  // A job that is killed on the way loses nothing.
+  EXPECT_NE(std::system(("timeout -s KILL 2.5 " + launch + " >/dev/null 2>&1").c_str()), -1);
+  const std::string out = folder.path("out.json");
+  const std::string err = folder.path("err");
+  EXPECT_EQ(std::system((launch + " >" + out + " 2>" + err).c_str()), 0) << folder.Read("err");
+  nlohmann::json json = nlohmann::json::parse(folder.Read("out.json"));
+  EXPECT_EQ(json["end"], "complete");
+  json.erase("end");
+  EXPECT_TRUE(json == Totals(whole));
+}
+INSTANTIATE_TEST_SUITE_P(Few, OnRanks, testing::Values(2, 4));
+
+// What other engines get wrong becomes a small case that shows the same.
+TEST(FuzzCommand, FindingsAreShrunkToCasesThatReplay) {
+  const TemporaryFolder folder("fuzz");
+  const ProgramRun run = RunProgram(
+      "fuzz --suites ellipsoid-4 --engines fcl-own --count 40 --threads 1 --shrink-seconds 4 "
+      "--out " +
+      folder.path("a"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  int cases = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path("a/cases"))) {
+    const ProgramRun replay = RunProgram("replay --json " + entry.path().string());
+    EXPECT_EQ(replay.exit_code, 1) << entry.path() << replay.err;
+    const nlohmann::json json = replay.json();
+    EXPECT_EQ(json["engine"], "fcl-own");
+    EXPECT_EQ(json["recorded_finding"], json["findings"][0]["kind"]);
+    ++cases;
+  }
+  EXPECT_GT(cases, 0);
+}
+
 TEST(FuzzCommand, BadUsageIsOneLineAndCodeTwo) {
   const TemporaryFolder folder("fuzz");
   const auto refused = [&](const std::string& arguments, const std::string& text) {

@@ -9,12 +9,17 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "touchstone/tools/campaign/campaign.h"
+#include "touchstone/tools/campaign/cluster.h"
 #include "touchstone/tools/campaign/report.h"
+#include "touchstone/tools/campaign/shrunk_case.h"
+#include "touchstone/tools/campaign/stability.h"
 #include "touchstone/tools/suites/registry.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 
@@ -26,12 +31,13 @@ constexpr std::uint64_t kCoverageFloor = 1000;
 
 struct Arguments {
   std::vector<std::string> suites = {"all"}, engines = {"ours"};
-  std::string out, meshes;
+  std::string out, meshes, report;
   std::uint64_t seed = 1, count = 0;
   double minutes = 0.0, hang_seconds = 20.0;
   int threads = 0;
+  double shrink_seconds = 10.0;
   SamplingRates rates;
-  bool coverage = false, json = false;
+  bool coverage = false, json = false, markdown = false;
 };
 
 std::atomic<bool> stop_asked{false};
@@ -102,6 +108,26 @@ void PrintCoverage(std::ostream& out, const CampaignTotals& totals, const std::s
     out << engine << ": not listed as reachable: " << combination << ": " << count << '\n';
 }
 
+// Shrinks the first finding of every engine and kind that has no case file yet.
+void ShrinkFindings(const Arguments& arguments, const CampaignPlan& plan, CampaignStore& store) {
+  std::set<std::pair<std::string, std::string>> known;
+  const std::vector<StoredFinding> findings = store.FirstFindings(1);
+  for (const StoredFinding& finding : findings) {
+    if (!finding.case_file.empty()) known.emplace(finding.engine, finding.kind);
+  }
+  for (const StoredFinding& finding : findings) {
+    if (stop_asked) return;
+    if (finding.engine == "judge" || finding.engine == "corrupted") continue;
+    if (known.contains({finding.engine, finding.kind})) continue;
+    const std::string name = WriteShrunkCase(
+        finding, plan, arguments.out,
+        {.seconds = arguments.shrink_seconds, .hang_seconds = arguments.hang_seconds});
+    if (name.empty()) continue;
+    store.NameCase(finding, name);
+    known.emplace(finding.engine, finding.kind);
+  }
+}
+
 const char* Describe(CampaignEnd end) {
   switch (end) {
     case CampaignEnd::kComplete:
@@ -149,7 +175,29 @@ void CheckArguments(const Arguments& arguments) {
     throw BadInput{"--meshes: " + arguments.meshes + " is not a folder"};
 }
 
+// Hands out, stores, shrinks and reports.
+int RunHere(const Arguments& arguments, const CampaignPlan& plan, const CampaignLimits& limits,
+            Workers& workers) {
+  CampaignStore store(arguments.out, plan);
+  std::signal(SIGINT, AskToStop);
+  std::signal(SIGTERM, AskToStop);
+  ProgressLine line;
+  const CampaignEnd end = RunCampaign(
+      plan, limits, store, workers, [&](const CampaignProgress& progress) { line.Show(progress); });
+  line.Clear();
+  if (arguments.shrink_seconds > 0.0 && end != CampaignEnd::kStopped)
+    ShrinkFindings(arguments, plan, store);
+  return Conclude(arguments, plan, store, end);
+}
+
+int RunReport(const Arguments& arguments) {
+  const CampaignStore store(arguments.report);
+  ReportStability(CampaignTotals(store), arguments.report, arguments.markdown, std::cout);
+  return kFine;
+}
+
 int RunFuzz(const Arguments& arguments) {
+  if (!arguments.report.empty()) return RunReport(arguments);
   CheckArguments(arguments);
   const std::vector<std::unique_ptr<Suite>> all = MakeSuites(arguments.meshes);
   CampaignPlan plan;
@@ -163,19 +211,27 @@ int RunFuzz(const Arguments& arguments) {
   const int threads = arguments.threads > 0
                           ? arguments.threads
                           : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  CampaignStore store(arguments.out, plan);
-  std::signal(SIGINT, AskToStop);
-  std::signal(SIGTERM, AskToStop);
-  ProgressLine line;
-  CampaignEnd end;
-  {
-    const std::unique_ptr<Workers> workers =
-        MakeLocalWorkers(plan, threads, arguments.hang_seconds);
-    end = RunCampaign(plan, limits, store, *workers,
-                      [&](const CampaignProgress& progress) { line.Show(progress); });
+  // Before a cluster is joined: workers are forked from a process without threads.
+  std::unique_ptr<Workers> local = MakeLocalWorkers(plan, threads, arguments.hang_seconds);
+  if (!Cluster::IsJob()) return RunHere(arguments, plan, limits, *local);
+  const std::unique_ptr<Cluster> cluster = Cluster::Join();
+  if (cluster->rank() > 0) {
+    ServeRank(*cluster, *local);
+    cluster->Leave(true, kFine);
+    return kFine;
   }
-  line.Clear();
-  return Conclude(arguments, plan, store, end);
+  ClusterWorkers workers(*cluster, std::move(local));
+  try {
+    const int exit_code = RunHere(arguments, plan, limits, workers);
+    std::cout << std::flush;
+    cluster->Leave(workers.Dismiss(), exit_code);
+    return exit_code;
+  } catch (const BadInput& bad) {
+    // The other ranks wait for work.
+    std::cerr << "touchstone: " << bad.message << std::endl;
+    cluster->Leave(false, kBadInput);
+    throw;
+  }
 }
 
 }  // namespace
@@ -188,9 +244,8 @@ void AddFuzz(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->capture_default_str();
   command
-      ->add_option(
-          "--engines", arguments->engines,
-          "names (NAME, NAME:default, NAME:held), or ours, others, all; corrupted")
+      ->add_option("--engines", arguments->engines,
+                   "names (NAME, NAME:default, NAME:held), or ours, others, all; corrupted")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "which stream of queries")->capture_default_str();
@@ -221,6 +276,9 @@ void AddFuzz(CLI::App& app, int& exit_code) {
       ->add_option("--values-every", arguments->rates.values,
                    "distance and depth of engines at one query in so many; 0: never")
       ->capture_default_str();
+  command->add_option("--report", arguments->report,
+                      "instead: the stability report of the campaign in this folder");
+  command->add_flag("--markdown", arguments->markdown, "the report's tables as Markdown");
   command->add_flag("--coverage", arguments->coverage,
                     "print every combination hit; fail where a complete run hit one fewer than "
                     "1000 times");
