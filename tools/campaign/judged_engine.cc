@@ -11,6 +11,7 @@
 #include "touchstone/exact/nearest_point.h"
 #include "touchstone/tools/campaign/contestant.h"
 #include "touchstone/tools/campaign/single_precision.h"
+#include "touchstone/tools/numbers.h"
 
 namespace touchstone {
 namespace {
@@ -46,10 +47,15 @@ class JudgedEngine : public Contestant {
                bool held)
       : Contestant(name, description.proven),
         touch_(description.touch),
+        floats_(description.single_precision),
         held_(held),
         engine_(description.make(tolerance)) {}
 
   std::vector<NamedFinding> Ask(const CampaignQuery& query, EngineTally& tally) override {
+    if (floats_ && !IsInReachOfFloats(query.pair())) {
+      tally.Count("out of reach of floats");
+      return {};
+    }
     if (!held_) return AskPair(query, query.pair(), query.truth(), tally);
     const std::optional<PlacedPair> rounded = rounded_.Round(query.pair());
     if (!rounded) {
@@ -114,7 +120,7 @@ class JudgedEngine : public Contestant {
     tally.Count(std::string(keys::kError) + name + ' ' + ScaleClass(query.size()) + ' ' +
                 AspectClass(aspect) + ' ' + ErrorClass(value->value, exact));
     const std::string said =
-        "says " + name + ' ' + std::to_string(value->value) + ", is " + std::to_string(exact);
+        "says " + name + ' ' + ShortDouble(value->value) + ", is " + ShortDouble(exact);
     if (std::isnan(value->value)) {
       findings.push_back({"nan", said});
     } else if (!(std::fabs(value->value - exact) <= kFarOff * query.size())) {
@@ -125,7 +131,7 @@ class JudgedEngine : public Contestant {
   double AspectOfBody(const ConvexPolyhedron& body) { return aspects_.Get(body, AspectOf); }
 
   TouchConvention touch_;
-  bool held_;
+  bool floats_, held_;
   std::unique_ptr<Engine> engine_;
   PerBody<std::shared_ptr<const EngineShape>> shapes_;
   PerBody<double> aspects_;

@@ -82,7 +82,7 @@ double Rounded(double x, double size, int digits) {
   if (digits < 0) return 0.0;
   const double unit = std::pow(10.0, std::floor(std::log10(size)) - digits);
   // A division by a whole power of ten gives the double nearest to a short decimal.
-  const double scaled = std::nearbyint(x / unit);
+  const double scaled = std::nearbyint(x / unit) + 0.0;  // not -0
   return unit < 1.0 ? scaled / std::nearbyint(1.0 / unit) : scaled * unit;
 }
 

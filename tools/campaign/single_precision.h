@@ -8,6 +8,10 @@
 
 namespace touchstone {
 
+// Whether all lengths of the query are where floats, and products of three of them, neither
+// overflow nor vanish: beyond that there is no question to ask a single-precision engine.
+bool IsInReachOfFloats(const PlacedPair& pair);
+
 // Queries rounded to what floats hold exactly, so that a single-precision engine is judged on the
 // very question it is asked.
 class RoundedPairs {

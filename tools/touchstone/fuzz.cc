@@ -265,6 +265,10 @@ void AddFuzz(CLI::App& app, int& exit_code) {
                    "a query that takes longer is ended and counted as a hang")
       ->capture_default_str();
   command
+      ->add_option("--shrink-seconds", arguments->shrink_seconds,
+                   "shrink the first finding of each engine and kind for so long; 0: not")
+      ->capture_default_str();
+  command
       ->add_option("--maxima-every", arguments->rates.maxima,
                    "phase maxima at one query in so many; 0: never")
       ->capture_default_str();
