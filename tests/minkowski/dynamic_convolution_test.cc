@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <iterator>
 #include <numbers>
 #include <string>
@@ -145,6 +147,54 @@ TEST(DynamicConvolution, RotationsOffOrthonormal) {
     for (int k = 0; k < 9; ++k) rotation(k / 3, k % 3) += random.Uniform(-1e-7, 1e-7);
     ASSERT_NO_FATAL_FAILURE(kept.Go(PoseOf(rotation)));
   }
+}
+
+// Bodies of a few cubes, as they are, with corners moved by small integers or at random, flattened
+// to needles, or tiny: special vertices, coplanar faces, parallel edges.
+Shape RandomCubes(testing::Random& random) {
+  std::vector<std::array<int, 3>> cubes;
+  for (int i = random.Int(2, 7); i > 0; --i) {
+    cubes.push_back({random.Int(0, 2), random.Int(0, 2), random.Int(0, 1)});
+  }
+  std::sort(cubes.begin(), cubes.end());
+  cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
+  Shape shape = Cubes(cubes);
+  const int change = random.Int(0, 4);
+  for (Vector3d& x : shape.vertices) {
+    if (change == 1)
+      x = 4.0 * x + Vector3d(random.Int(-1, 1), random.Int(-1, 1), random.Int(-1, 1));
+    if (change == 2) x += 0.1 * random.Direction();
+    if (change == 3) x = {3.0 * x[0] + 1e-9 * random.Int(0, 2), x[1], 1e-5 * x[2]};
+    if (change == 4) x *= 1e-90;
+  }
+  return shape;
+}
+
+TEST(DynamicConvolution, EqualsARebuildOfRandomCubes) {
+  const int seed = 58;
+  std::printf("seed %d\n", seed);
+  testing::Random random(seed);
+  int pairs = 0;
+  std::size_t special = 0;
+  while (pairs < 60) {
+    const Shape a = RandomCubes(random), b = RandomCubes(random);
+    // Cubes that touch in an edge or a corner alone are refused.
+    const auto mesh_a = TriangleMesh::Build(a.vertices, a.faces);
+    if (!mesh_a.ok() || !TriangleMesh::Build(b.vertices, b.faces).ok()) continue;
+    ++pairs;
+    special += MappedMesh(*mesh_a).special_vertices.size();
+    Kept kept(a, b);
+    Matrix3d rotation = Matrix3d::Identity();
+    for (int i = 0; i < 10; ++i) {
+      const double angles[] = {1e-15, 1e-3, std::numbers::pi / 4, std::numbers::pi / 2, 1.0};
+      const Vector3d axis =
+          random.Int(0, 2) == 0 ? random.Direction() : Vector3d(Vector3d::Unit(random.Int(0, 2)));
+      if (random.Int(0, 5) == 0) rotation = Matrix3d::Identity();
+      rotation = Turn(angles[random.Int(0, 4)], axis) * rotation;
+      ASSERT_NO_FATAL_FAILURE(kept.Go(PoseOf(rotation))) << pairs << ' ' << i;
+    }
+  }
+  EXPECT_GT(special, 10u);
 }
 
 // Looking at nothing where nothing can have changed, and at little where little can.
