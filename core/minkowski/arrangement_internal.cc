@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "touchstone/core/mesh/box_tree.h"
+#include "touchstone/core/minkowski/box_lanes_internal.h"
 #include "touchstone/core/minkowski/equal_points_internal.h"
+#include "touchstone/core/minkowski/flat_table_internal.h"
 
 namespace touchstone::internal {
 namespace {
@@ -76,12 +78,29 @@ class Arranger {
       boxes.push_back(box);
     }
     std::vector<std::pair<int, int>> near;
-    BoxTree(boxes).MeetingItems(&near);
-    // In a fixed order, whatever the tree: facets come sorted.
+    if (is_active_.empty()) {
+      BoxTree(boxes).MeetingItems(&near);
+    } else {
+      FindNearActive(boxes, &near);
+    }
+    // In a fixed order, however they were found: facets come sorted.
     std::sort(near.begin(), near.end());
     result_.box_pairs = static_cast<long>(near.size());
-    for (const auto& [f, g] : near) {
-      if (IsActive(f) || IsActive(g)) ClassifyPair(f, g);
+    for (const auto& [f, g] : near) ClassifyPair(f, g);
+  }
+
+  // Pairs with an active facet, whose boxes meet: each active one against all, in lanes. Few are
+  // active; a tree would find the pairs of the others, too.
+  void FindNearActive(std::span<const Box3> boxes, std::vector<std::pair<int, int>>* near) const {
+    const BoxLanes lanes(boxes);
+    std::vector<int> hits;
+    for (int f = 0; f < static_cast<int>(boxes.size()); ++f) {
+      if (!IsActive(f)) continue;
+      hits.clear();
+      lanes.Meeting(boxes[f], &hits);
+      for (const int g : hits) {
+        if (g != f && (!IsActive(g) || f < g)) near->push_back(std::minmax(f, g));
+      }
     }
   }
 
@@ -144,7 +163,7 @@ class Arranger {
   }
 
   void AddEdges() {
-    std::map<std::pair<int, int>, int> segment_of_edge;
+    FlatTable segment_of_edge;
     for (std::size_t f = 0; f < result_.facets.size(); ++f) {
       const ArrangedFacet& own = result_.facets[f];
       Group& group = result_.groups[group_of_facet_[f]];
@@ -154,16 +173,16 @@ class Arranger {
           own.plane == group.plane || geometry_.NormalsAgree(own.plane, group.plane) > 0;
       for (int k = 0; k < own.count; ++k) {
         const int u = own.corners[k], v = own.corners[(k + 1) % own.count];
-        const auto [place, added] = segment_of_edge.try_emplace(
-            std::minmax(u, v), static_cast<int>(result_.segments.size()));
+        const auto [number, added] = segment_of_edge.Insert(
+            {std::min(u, v), std::max(u, v), 0, 0}, static_cast<int>(result_.segments.size()));
         if (added) {
           Segment segment;
           segment.axis = EdgeAxis(u, v);
           segment.points = {std::min(u, v), std::max(u, v)};
           result_.segments.push_back(std::move(segment));
         }
-        group.walls.push_back({place->second, geometry_.AddEdgePlane(u, v, axis),
-                               static_cast<int>(f), -1, (u < v) == agrees});
+        group.walls.push_back({number, geometry_.AddEdgePlane(u, v, axis), static_cast<int>(f), -1,
+                               (u < v) == agrees});
       }
     }
   }

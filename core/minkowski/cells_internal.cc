@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "touchstone/core/minkowski/flat_table_internal.h"
+
 namespace touchstone::internal {
 namespace {
 
@@ -31,15 +33,15 @@ class PieceTable {
  private:
   int Number(int u, int v) {
     const auto [small, large] = std::minmax(u, v);
-    const auto key = (static_cast<std::uint64_t>(small) << 32) | static_cast<std::uint32_t>(large);
-    const auto [place, added] = by_ends_.try_emplace(key, static_cast<int>(pieces_.size()));
+    const auto [number, added] =
+        by_ends_.Insert({small, large, 0, 0}, static_cast<int>(pieces_.size()));
     if (added) pieces_.push_back({small, large});
-    return place->second;
+    return number;
   }
 
   std::vector<int> first_, numbers_;
   std::vector<Piece> pieces_;
-  std::unordered_map<std::uint64_t, int> by_ends_;
+  FlatTable by_ends_;
 };
 
 // One group's graph. Half-edge 2 e + 0 runs along edge e from its first point to its second, 2 e +
@@ -118,13 +120,13 @@ class GroupCells {
   const ArrangedFacet& facet(int f) const { return arrangement_.facets[f]; }
 
   int PlaceOf(int point) {
-    const auto [place, added] = places_.try_emplace(point, static_cast<int>(points_.size()));
+    const auto [place, added] = places_.Insert({point, 0, 0, 0}, static_cast<int>(points_.size()));
     if (added) points_.push_back(point);
-    return place->second;
+    return place;
   }
 
   void GatherEdges() {
-    std::unordered_map<int, int> edge_of_piece;
+    FlatTable edge_of_piece;
     for (std::size_t w = 0; w < group_.walls.size(); ++w) {
       const Wall& wall = group_.walls[w];
       const Segment& segment = arrangement_.segments[wall.segment];
@@ -134,8 +136,8 @@ class GroupCells {
           geometry_.Compare(segment.points.back(), segment.points.front(), segment.axis);
       for (std::size_t k = 0; k + 1 < segment.points.size(); ++k) {
         const int piece = table_.PieceOf(wall.segment, static_cast<int>(k));
-        const auto [place, added] =
-            edge_of_piece.try_emplace(piece, static_cast<int>(edges_.size()));
+        const auto [number, added] =
+            edge_of_piece.Insert({piece, 0, 0, 0}, static_cast<int>(edges_.size()));
         if (added) {
           edges_.push_back({piece,
                             PlaceOf(segment.points[k]),
@@ -144,7 +146,7 @@ class GroupCells {
                             along * rises,
                             {}});
         }
-        Edge& edge = edges_[place->second];
+        Edge& edge = edges_[number];
         const bool is_forward = points_[edge.tail] == segment.points[k];
         edge.runs.push_back({static_cast<int>(w), is_forward});
       }
@@ -428,7 +430,7 @@ class GroupCells {
   int normal_axis_ = 0;
   std::vector<Edge> edges_;
   std::vector<int> points_;
-  std::unordered_map<int, int> places_;
+  FlatTable places_;
   std::vector<std::vector<int>> rounds_;
   std::vector<int> place_in_round_, loop_of_;
   std::vector<Loop> loops_;

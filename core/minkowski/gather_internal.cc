@@ -50,12 +50,12 @@ void NearBoxes::Add(const Box3& box) {
     all_.low = all_.low.cwiseMin(box.low);
     all_.high = all_.high.cwiseMax(box.high);
   }
-  boxes_.push_back(box);
+  boxes_.Add(box);
 }
 
 bool NearBoxes::MeetsAny(const Box3& box) const {
   if (boxes_.empty() || !Meet(all_, box)) return false;
-  return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box3& own) { return Meet(own, box); });
+  return boxes_.MeetsAny(box);
 }
 
 std::optional<SumFacet> SupportedFacet(SupportSigns* signs, const TriangleMesh& a,

@@ -12,6 +12,7 @@
 
 #include "touchstone/core/mesh/box_tree.h"
 #include "touchstone/core/mesh/mesh_pair.h"
+#include "touchstone/core/minkowski/box_lanes_internal.h"
 #include "touchstone/core/minkowski/convolution.h"
 #include "touchstone/core/minkowski/local_assembly_internal.h"
 #include "touchstone/core/minkowski/support_signs_internal.h"
@@ -32,7 +33,7 @@ bool MeetsBall(const FacetCorners& corners, const ScaledBall& ball);
 // Complexity of a question: O(n) for what is near all of them together, O(1) elsewhere.
 class NearBoxes {
  public:
-  void Clear() { boxes_.clear(); }
+  void Clear() { boxes_.Clear(); }
   void Add(const Box3& box);
   bool empty() const { return boxes_.empty(); }
   bool MeetsAny(const Box3& box) const;
@@ -40,7 +41,7 @@ class NearBoxes {
   const Box3& all() const { return all_; }
 
  private:
-  std::vector<Box3> boxes_;
+  BoxLanes boxes_;
   Box3 all_;
 };
 

@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 #include <utility>
 
 #include "touchstone/core/minkowski/arrangement_internal.h"
@@ -105,7 +105,11 @@ class Assembler {
   bool IsWanted(int c) const { return is_whole_ || is_selected_[c]; }
 
   // Cells that meet along a piece with no third beside them lie in M° together or not at all:
-  // nothing else of ∂M comes there. Of a piece that is not in the ball not all cells may be known.
+  // nothing else of ∂M comes there. Nor do two part company where all others at their piece are
+  // buried: the wedges beside a buried cell are in M°, and only one between the two can be out of
+  // it; it is, and both are on ∂M, or it is not, and both are in M°. (That holds of cells faced
+  // from one side: they have no other contact than their facet's, so just outside ∂M's M° ends. One
+  // faced from both may be an exact slot.) Of a piece that is not in the ball not all may be known.
   void FormPatches() {
     cells_of_piece_.resize(complex_.pieces.size());
     for (int c = 0; c < cell_count(); ++c) {
@@ -115,11 +119,30 @@ class Assembler {
     std::iota(patch_.begin(), patch_.end(), 0);
     for (std::size_t i = 0; i < cells_of_piece_.size(); ++i) {
       const std::vector<int>& cells = cells_of_piece_[i];
-      if (cells.size() == 2 && (is_whole_ || is_near_[i]))
-        patch_[Patch(cells[0])] = Patch(cells[1]);
+      if (cells.size() == 2 && IsKnown(i)) patch_[Patch(cells[0])] = Patch(cells[1]);
+    }
+    is_buried_.assign(complex_.cells.size(), 0);
+    for (int c = 0; c < cell_count(); ++c) is_buried_[Patch(c)] |= cell(c).is_buried;
+    for (std::size_t i = 0; i < cells_of_piece_.size(); ++i) {
+      if (cells_of_piece_[i].size() > 2 && IsKnown(i)) JoinOverCrossing(cells_of_piece_[i]);
     }
     for (int c = 0; c < cell_count(); ++c) patch_[c] = Patch(c);
   }
+
+  bool IsKnown(std::size_t piece) const { return is_whole_ || is_near_[piece]; }
+
+  void JoinOverCrossing(const std::vector<int>& cells) {
+    std::array<int, 2> open{};
+    int count = 0;
+    for (const int c : cells) {
+      if (is_buried_[Patch(c)]) continue;
+      if (count == 2 || FacingSides(c) != 1) return;
+      open[count++] = c;
+    }
+    if (count == 2) patch_[Patch(open[0])] = Patch(open[1]);
+  }
+
+  int FacingSides(int c) const { return !cell(c).along.empty() + !cell(c).against.empty(); }
 
   int Patch(int c) {
     while (patch_[c] != c) c = patch_[c] = patch_[patch_[c]];
@@ -127,13 +150,11 @@ class Assembler {
   }
 
   void ClassifyPatches() {
-    std::vector<char> is_buried(complex_.cells.size(), 0);
     std::vector<int> largest(complex_.cells.size(), -1);
     std::vector<double> area(complex_.cells.size(), -1.0);
     for (int c = 0; c < cell_count(); ++c) {
       if (!IsWanted(c)) continue;
       const int p = patch_[c];
-      is_buried[p] |= cell(c).is_buried;
       const double own = SquaredAreaOf(cell(c).loops[0]);
       if (own > area[p]) area[p] = own, largest[p] = c;
     }
@@ -142,7 +163,7 @@ class Assembler {
     for (int p = 0; p < cell_count(); ++p) {
       if (area[p] < 0.0) continue;
       ++sum_.patches;
-      if (!is_buried[p] && largest[p] >= 0) is_kept_[p] = IsOutsideM(largest[p]);
+      if (!is_buried_[p]) is_kept_[p] = IsOutsideM(largest[p]);
     }
   }
 
@@ -203,63 +224,79 @@ class Assembler {
   }
 
   int AddPoint(int point) {
-    const auto [place, added] =
-        number_of_point_.try_emplace(point, static_cast<int>(sum_.vertices.size()));
-    if (added) {
+    if (number_of_point_.empty()) number_of_point_.assign(geometry_.point_count(), -1);
+    int& number = number_of_point_[point];
+    if (number < 0) {
+      number = static_cast<int>(sum_.vertices.size());
       const SumPoint& x = geometry_.point(point);
       sum_.vertices.push_back(x.rounded / pair_.scale());
       sum_.rounding = std::max(sum_.rounding, x.error / pair_.scale());
       sum_.names.push_back(geometry_.NameOf(point));
     }
-    return place->second;
+    return number;
   }
 
   // As for the whole boundary (boundary.cc), for pieces and points in the ball: there all planes
   // that pass are known.
   void AddLonePieces() {
-    std::unordered_map<int, std::vector<std::pair<int, bool>>> planes_of_point;
     std::vector<char> is_near_kept(geometry_.point_count(), 0);
-    std::vector<std::pair<int, bool>> planes;
     for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
-      if (!is_near_[i]) continue;
+      if (is_near_[i] && IsNearKept(i)) MarkEnds(i, &is_near_kept);
+    }
+    std::vector<std::array<int, 3>> planes_of_points;  // point, plane, which way it faces
+    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
       const Piece& piece = complex_.pieces[i];
-      bool is_kept = false;
-      planes.clear();
-      for (const int c : cells_of_piece_[i]) {
-        is_kept |= is_kept_[patch_[c]] != 0;
-        const int root = arrangement_.groups[cell(c).group].plane;
-        if (!cell(c).along.empty()) planes.emplace_back(root, true);
-        if (!cell(c).against.empty()) planes.emplace_back(root, false);
-      }
-      std::sort(planes.begin(), planes.end());
-      planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+      if (!is_near_[i] || (is_near_kept[piece.from] && is_near_kept[piece.to])) continue;
+      const std::vector<std::array<int, 2>>& planes = PlanesOf(i);
       for (const int point : {piece.from, piece.to}) {
-        is_near_kept[point] |= is_kept;
-        if (!IsInBall(point)) continue;
-        auto& own = planes_of_point[point];
-        own.insert(own.end(), planes.begin(), planes.end());
+        for (const auto& [plane, side] : planes) planes_of_points.push_back({point, plane, side});
       }
-      if (is_kept || planes.size() < 3) continue;
+      if (IsNearKept(i) || planes.size() < 3) continue;
       if (VerdictAt(SampleBetween(&geometry_, piece.from, piece.to)) == Verdict::kOverlap) continue;
+      segments_.push_back(piece);
+    }
+    for (const Piece& piece : segments_) {
       is_near_kept[piece.from] = is_near_kept[piece.to] = 1;
       sum_.segments.push_back({AddPoint(piece.from), AddPoint(piece.to)});
     }
-    AddLonePoints(&planes_of_point, is_near_kept);
+    AddLonePoints(std::move(planes_of_points), is_near_kept);
   }
 
-  void AddLonePoints(std::unordered_map<int, std::vector<std::pair<int, bool>>>* planes_of_point,
-                     const std::vector<char>& is_near_kept) {
-    std::vector<int> lone;
-    for (auto& [point, planes] : *planes_of_point) {
-      std::sort(planes.begin(), planes.end());
-      planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
-      if (planes.size() >= 4 && !is_near_kept[point]) lone.push_back(point);
+  bool IsNearKept(std::size_t piece) const {
+    const std::vector<int>& cells = cells_of_piece_[piece];
+    return std::any_of(cells.begin(), cells.end(), [&](int c) { return is_kept_[patch_[c]] != 0; });
+  }
+
+  void MarkEnds(std::size_t piece, std::vector<char>* marks) const {
+    (*marks)[complex_.pieces[piece].from] = (*marks)[complex_.pieces[piece].to] = 1;
+  }
+
+  // The planes of the cells at a piece, by which way they face.
+  const std::vector<std::array<int, 2>>& PlanesOf(std::size_t piece) {
+    planes_.clear();
+    for (const int c : cells_of_piece_[piece]) {
+      const int root = arrangement_.groups[cell(c).group].plane;
+      if (!cell(c).along.empty()) planes_.push_back({root, 1});
+      if (!cell(c).against.empty()) planes_.push_back({root, 0});
     }
-    std::sort(lone.begin(), lone.end());
-    for (const int point : lone) {
-      if (VerdictAt(SampleBetween(&geometry_, point, point)) != Verdict::kOverlap) {
+    std::sort(planes_.begin(), planes_.end());
+    planes_.erase(std::unique(planes_.begin(), planes_.end()), planes_.end());
+    return planes_;
+  }
+
+  void AddLonePoints(std::vector<std::array<int, 3>> planes_of_points,
+                     const std::vector<char>& is_near_kept) {
+    std::sort(planes_of_points.begin(), planes_of_points.end());
+    const auto last = std::unique(planes_of_points.begin(), planes_of_points.end());
+    for (auto first = planes_of_points.begin(); first != last;) {
+      const int point = (*first)[0];
+      const auto end =
+          std::find_if(first, last, [&](const std::array<int, 3>& x) { return x[0] != point; });
+      if (end - first >= 4 && !is_near_kept[point] && IsInBall(point) &&
+          VerdictAt(SampleBetween(&geometry_, point, point)) != Verdict::kOverlap) {
         sum_.points.push_back(AddPoint(point));
       }
+      first = end;
     }
   }
 
@@ -301,9 +338,12 @@ class Assembler {
   std::vector<char> is_selected_;  // cells: meet the ball
   std::vector<std::vector<int>> cells_of_piece_;
   std::vector<int> patch_;
+  std::vector<char> is_buried_;                             // by patch
   std::vector<char> is_kept_;                               // by patch
   std::vector<std::vector<std::array<int, 3>>> triangles_;  // by cell
-  std::unordered_map<int, int> number_of_point_;
+  std::vector<std::array<int, 2>> planes_;                  // scratch
+  std::vector<Piece> segments_;
+  std::vector<int> number_of_point_;  // in the sum; -1: not there
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "touchstone/core/base/enum_names.h"
 #include "touchstone/core/mesh/membership.h"
+#include "touchstone/core/minkowski/gap_filling_internal.h"
 #include "touchstone/core/minkowski/gather_internal.h"
 #include "touchstone/core/minkowski/gauss_map.h"
 #include "touchstone/core/minkowski/local_assembly_internal.h"
@@ -49,6 +50,7 @@ class LocalMinkowskiSum::Implementation {
     if (options_.builder == LocalBuilder::kSphereHierarchy ||
         options_.builder == LocalBuilder::kGapFilling) {
       hierarchy_.emplace(pair_.a().mesh, map_a_, pair_.b().mesh, map_b_);
+      gap_filler_.emplace(pair_.b().mesh);
     }
   }
 
@@ -92,8 +94,10 @@ class LocalMinkowskiSum::Implementation {
         break;
       }
       case LocalBuilder::kSphereHierarchy:
-      case LocalBuilder::kGapFilling:
         GatherByHierarchy(ball);
+        break;
+      case LocalBuilder::kGapFilling:
+        GatherByGapFilling(ball);
         break;
     }
   }
@@ -116,6 +120,10 @@ class LocalMinkowskiSum::Implementation {
       supported_.emplace_back(*facet, 1);
     }
     if (!near_.empty()) GatherCrossers(ball, &signs);
+    SortSupported();
+  }
+
+  void SortSupported() {
     std::sort(supported_.begin(), supported_.end());
     gathered_.facets.clear();
     gathered_.is_active.clear();
@@ -123,6 +131,32 @@ class LocalMinkowskiSum::Implementation {
       gathered_.facets.push_back(facet);
       gathered_.is_active.push_back(is_active);
     }
+  }
+
+  // Those of the list that support now: first those that meet the ball, then those near one.
+  void GatherByGapFilling(const internal::ScaledBall& ball) {
+    internal::SupportSigns signs(pair_, map_a_, map_b_);
+    const std::vector<SumFacet>& candidates = gap_filler_->Candidates(pair_, ball, &*hierarchy_);
+    sum_.candidates = static_cast<long>(candidates.size());
+    near_.Clear();
+    supported_.clear();
+    others_.clear();
+    for (const SumFacet& candidate : candidates) {
+      const auto facet = Supported(&signs, candidate);
+      if (!facet) continue;
+      const internal::FacetCorners corners = internal::RoundedCorners(pair_, *facet);
+      const Box3 box = internal::BoxOf(pair_, corners);
+      if (internal::MeetsBall(corners, ball)) {
+        near_.Add(box);
+        supported_.emplace_back(*facet, 1);
+      } else {
+        others_.emplace_back(*facet, box);
+      }
+    }
+    for (const auto& [facet, box] : others_) {
+      if (near_.MeetsAny(box)) supported_.emplace_back(facet, 0);
+    }
+    SortSupported();
   }
 
   void GatherCrossers(const internal::ScaledBall& ball, internal::SupportSigns* signs) {
@@ -163,10 +197,12 @@ class LocalMinkowskiSum::Implementation {
   GaussMap map_a_, map_b_;
   MeshPair pair_;
   std::optional<internal::SphereHierarchy> hierarchy_;
+  std::optional<internal::GapFiller> gap_filler_;
   MembershipCache membership_cache_;
   internal::NearBoxes near_;
   std::vector<SumFacet> candidates_;
   std::vector<std::pair<SumFacet, char>> supported_;
+  std::vector<std::pair<SumFacet, Box3>> others_;
   internal::GatheredFacets gathered_;
   std::vector<SumFacet> facets_before_;
   LocalSum sum_;

@@ -231,7 +231,9 @@ PlacedSphereConeTree::PlacedSphereConeTree(SphereConeTree tree)
     : tree_(std::move(tree)), placed_(tree_.nodes().size()), stamps_(tree_.nodes().size(), 0) {}
 
 void PlacedSphereConeTree::Place(const Eigen::Matrix3d& linear, const Vector3d& shift, double scale,
-                                 double sense) {
+                                 double sense, double widening) {
+  widening_cosine_ = std::cos(widening);
+  widening_sine_ = std::sin(widening);
   linear_ = sense * linear;
   turn_ = linear_ / scale;
   shift_ = sense * shift;
@@ -257,8 +259,12 @@ void PlacedSphereConeTree::PlaceNode(int i) {
   for (int lane = 0; lane < kWidth; ++lane) {
     // Places are off by a few units of the pair's size, which is one.
     placed.radius[lane] = scale_ * node.radius[lane] + 0x1p-44;
-    placed.cosine[lane] = node.cosine[lane];
-    placed.sine[lane] = node.sine[lane];
+    // Wider than a half-space is all directions.
+    const double cosine = node.cosine[lane] * widening_cosine_ - node.sine[lane] * widening_sine_;
+    const bool is_all = node.cosine[lane] < -1.0 || cosine <= 0.0;
+    placed.cosine[lane] = is_all ? -2.0 : cosine;
+    placed.sine[lane] =
+        is_all ? 0.0 : node.sine[lane] * widening_cosine_ + node.cosine[lane] * widening_sine_;
     placed.children[lane] = node.children[lane];
   }
   placed.lane_count = node.lane_count;
@@ -276,13 +282,13 @@ SphereHierarchy::SphereHierarchy(const TriangleMesh& a, const GaussMap& map_a,
   }
 }
 
-void SphereHierarchy::Place(const MeshPair& pair) {
+void SphereHierarchy::Place(const MeshPair& pair, double widening) {
   const double scale = pair.scale();
   for (PlacedSphereConeTree& tree : trees_[0]) {
-    tree.Place(scale * Eigen::Matrix3d::Identity(), Vector3d::Zero(), scale, 1.0);
+    tree.Place(scale * Eigen::Matrix3d::Identity(), Vector3d::Zero(), scale, 1.0, widening);
   }
   for (PlacedSphereConeTree& tree : trees_[1]) {
-    tree.Place(scale * pair.pose().rotation(), scale * pair.pose().translation(), scale, -1.0);
+    tree.Place(scale * pair.pose().rotation(), scale * pair.pose().translation(), scale, -1.0, 0.0);
   }
 }
 

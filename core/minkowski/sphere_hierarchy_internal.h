@@ -56,9 +56,9 @@ class SphereConeTree {
 class PlacedSphereConeTree {
  public:
   explicit PlacedSphereConeTree(SphereConeTree tree);
-  // `linear` is `scale` times a matrix within 1e-6 of a rotation.
+  // `linear` is `scale` times a matrix within 1e-6 of a rotation. Cones are widened by an angle.
   void Place(const Eigen::Matrix3d& linear, const Eigen::Vector3d& shift, double scale,
-             double sense);
+             double sense, double widening);
 
   bool empty() const { return tree_.nodes().empty(); }
   const SphereConeTree::Node& node(int i) {
@@ -75,7 +75,8 @@ class PlacedSphereConeTree {
   std::uint32_t stamp_ = 0;
   Eigen::Matrix3d linear_, turn_;
   Eigen::Vector3d shift_;
-  double scale_ = 1.0, sense_ = 1.0;
+  double scale_ = 1.0;
+  double widening_cosine_ = 1.0, widening_sine_ = 0.0;
 };
 
 // Both bodies' trees over faces, vertices that can support, and convex edges.
@@ -84,7 +85,9 @@ class SphereHierarchy {
   SphereHierarchy(const TriangleMesh& a, const GaussMap& map_a, const TriangleMesh& b,
                   const GaussMap& map_b);
 
-  void Place(const MeshPair& pair);
+  // Widened by an angle, cones that meet at any rotation within it of the pair's meet at the
+  // pair's.
+  void Place(const MeshPair& pair, double widening = 0.0);
 
   // All pairs of features, named as facets, whose cones meet and whose sum may meet a ball, and
   // some others. Edges' `is_along_cross` is not set. Complexity: O(k + log n) on round bodies.

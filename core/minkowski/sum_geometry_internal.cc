@@ -36,20 +36,11 @@ int SignOf(double value, double error) {
 
 }  // namespace
 
-std::size_t SumGeometry::KeyHash::operator()(const Key& key) const {
-  std::uint64_t hash = 0;
-  for (const int part : key) {
-    hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
-
 int SumGeometry::Add(SumPointForm form, const std::array<int, 3>& parts) {
-  const Key key = {static_cast<int>(form), parts[0], parts[1], parts[2]};
-  const auto [place, added] = point_numbers_.try_emplace(key, point_count());
+  const auto [number, added] =
+      point_numbers_.Insert({static_cast<int>(form), parts[0], parts[1], parts[2]}, point_count());
   if (added) points_.push_back({form, parts, Vector3d::Zero(), kInfinity});
-  return place->second;
+  return number;
 }
 
 int SumGeometry::AddVertex(SumVertex vertex) {
@@ -202,9 +193,9 @@ int SumGeometry::AddFacetPlane(const SumFacet& facet, const std::array<int, 4>& 
 
 int SumGeometry::AddEdgePlane(int vertex, int other_vertex, int axis) {
   const auto [small, large] = std::minmax(vertex, other_vertex);
-  const auto [place, added] =
-      edge_planes_.try_emplace({small, large, axis, 0}, static_cast<int>(planes_.size()));
-  if (!added) return place->second;
+  const auto [number, added] =
+      edge_planes_.Insert({small, large, axis, 0}, static_cast<int>(planes_.size()));
+  if (!added) return number;
   const SumPoint &u = points_[small], &v = points_[large];
   const Vector3d edge = v.rounded - u.rounded;
   SumPlane plane;
@@ -216,7 +207,7 @@ int SumGeometry::AddEdgePlane(int vertex, int other_vertex, int axis) {
   plane.origin_error = u.error;
   planes_.push_back(plane);
   roots_.push_back(static_cast<int>(roots_.size()));
-  return place->second;
+  return number;
 }
 
 void SumGeometry::Unite(int p, int q) {

@@ -17,6 +17,7 @@
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/mesh/translation.h"
 #include "touchstone/core/minkowski/convolution.h"
+#include "touchstone/core/minkowski/flat_table_internal.h"
 #include "touchstone/core/minkowski/sum_point_name.h"
 
 namespace touchstone::internal {
@@ -107,11 +108,6 @@ class SumGeometry {
     DyadicVector normal;
     Dyadic offset;  // normal . x for the plane's points
   };
-  using Key = std::array<int, 4>;
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const;
-  };
-
   SumVertex VertexOf(int point) const;
   int Add(SumPointForm form, const std::array<int, 3>& parts);
   void RoundOnEdge(SumPoint* point) const;
@@ -127,7 +123,7 @@ class SumGeometry {
   std::vector<SumPoint> points_;
   std::vector<SumPlane> planes_;
   mutable std::vector<int> roots_;
-  std::unordered_map<Key, int, KeyHash> point_numbers_, edge_planes_;
+  FlatTable point_numbers_, edge_planes_;
   std::unordered_map<int, ExactPoint> exact_points_;
   std::unordered_map<int, ExactPlane> exact_planes_;
   long exact_count_ = 0;

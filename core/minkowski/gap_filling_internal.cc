@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/minkowski/gap_filling_internal.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace touchstone::internal {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Poses may be off orthonormal by 1e-6 in each entry of RᵀR: such a matrix is within 2e-6 of a
+// rotation in every direction.
+constexpr double kOffRotation = 2e-6;
+// Unit vectors made of roundings, and of placed points, are off by less where they are trusted.
+constexpr double kSlack = 1e-9;
+// A padding that lasts for so many steps like the last one, if it stays below this part of the
+// ball's radius; else one that lasts for as many as it may, or none.
+constexpr double kSteps = 16.0, kLargestPart = 0.2;
+
+}  // namespace
+
+GapFiller::GapFiller(const TriangleMesh& b) {
+  Vector3d low = b.vertex(0), high = low;
+  for (const Vector3d& v : b.vertices()) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  middle_of_b_ = 0.5 * low + 0.5 * high;
+  radius_of_b_ = 0.0;
+  for (const Vector3d& v : b.vertices()) {
+    radius_of_b_ = std::max(radius_of_b_, (v - middle_of_b_).norm());
+  }
+}
+
+GapFiller::Frame GapFiller::FrameOf(const MeshPair& pair, const ScaledBall& ball) const {
+  const RelativePose& pose = pair.pose();
+  const Vector3d middle = pair.scale() * (pose.rotation() * middle_of_b_ + pose.translation());
+  return {pose.rotation(), -middle - ball.center(), ball.radius(), pair.scale()};
+}
+
+// A point of M less the centre is a - R (b - b0) - (R b0 + t) - c, b0 the middle of B. Between two
+// frames it moves by the change of R times |b - b0|, and that of the rest; the difference of two
+// such points by the change of R times |b - b'| at most. The change of R, a difference of two
+// rotations by an angle δ, stretches nothing by more than 2 sin(δ/2), and its Frobenius norm is √2
+// times that.
+Motion GapFiller::MotionBetween(const Frame& x, const Frame& y) const {
+  const double change = (x.rotation - y.rotation).norm() / std::sqrt(2.0) + 3.0 * kOffRotation;
+  const double radius = x.scale * radius_of_b_;
+  Motion motion;
+  motion.angle = change < 1.0 ? 2.0 * std::asin(0.5 * change) + kOffRotation : 4.0;
+  motion.spread = 2.0 * change * radius + kSlack;
+  motion.approach =
+      change * radius + (x.way - y.way).norm() + std::max(0.0, y.radius - x.radius) + kSlack;
+  return motion;
+}
+
+bool GapFiller::IsWithinPadding(const Motion& motion) const {
+  return motion.angle <= padding_.angle && motion.spread <= padding_.spread &&
+         motion.approach <= padding_.approach;
+}
+
+// By how the last step went; the first gathering has none.
+void GapFiller::ChoosePadding(const Motion& step, const ScaledBall& ball) {
+  padding_ = {};
+  if (!has_last_) return;
+  const double largest = kLargestPart * ball.radius();
+  const double size = std::max({step.approach, 0.5 * step.spread, 1e-300});
+  const double steps = std::min(kSteps, largest / size);
+  if (!(steps >= 1.0)) return;
+  padding_ = {steps * step.angle, steps * step.spread, steps * step.approach};
+  if (padding_.angle > 0.5) padding_ = {};
+}
+
+const std::vector<SumFacet>& GapFiller::Candidates(const MeshPair& pair, const ScaledBall& ball,
+                                                   SphereHierarchy* hierarchy) {
+  const Frame now = FrameOf(pair, ball);
+  const bool is_valid = has_gathered_ && now.scale == gathered_.scale &&
+                        IsWithinPadding(MotionBetween(gathered_, now));
+  if (!is_valid) {
+    if (has_last_ && last_.scale != now.scale) has_last_ = false;
+    ChoosePadding(has_last_ ? MotionBetween(last_, now) : Motion(), ball);
+    gathered_ = now;
+    has_gathered_ = true;
+    Gather(pair, ball, hierarchy);
+  }
+  last_ = now;
+  has_last_ = true;
+  return candidates_;
+}
+
+// First what may meet the ball; then what may meet such. Boxes that meet at a pose within the
+// padding come within `spread` of each other along every axis.
+void GapFiller::Gather(const MeshPair& pair, const ScaledBall& ball, SphereHierarchy* hierarchy) {
+  ++gatherings_;
+  hierarchy->Place(pair, padding_.angle);
+  near_.Clear();
+  found_.clear();
+  candidates_.clear();
+  const double reach = ball.gathering_reach() + padding_.approach;
+  hierarchy->Candidates(ball.center(), reach, &found_);
+  for (const SumFacet& candidate : found_) {
+    if (!MaySupport(pair, candidate)) continue;
+    const FacetCorners corners = RoundedCorners(pair, candidate);
+    if (DistanceToPolygon(ball.center(), corners.points.data(), corners.count) > reach) continue;
+    candidates_.push_back(candidate);
+    Box3 box = BoxOf(pair, corners);
+    box.low -= Vector3d::Constant(padding_.spread);
+    box.high += Vector3d::Constant(padding_.spread);
+    near_.Add(box);
+  }
+  if (near_.empty()) return;
+  const Box3& all = near_.all();
+  found_.clear();
+  hierarchy->Candidates(0.5 * (all.low + all.high), 0.5 * (all.high - all.low).norm(), &found_);
+  for (const SumFacet& candidate : found_) {
+    const FacetCorners corners = RoundedCorners(pair, candidate);
+    if (!near_.MeetsAny(BoxOf(pair, corners)) || !MaySupport(pair, candidate)) continue;
+    if (DistanceToPolygon(ball.center(), corners.points.data(), corners.count) > reach) {
+      candidates_.push_back(candidate);
+    }
+  }
+}
+
+bool GapFiller::MaySupport(const MeshPair& pair, const SumFacet& candidate) const {
+  switch (candidate.kind) {
+    case SumFacetKind::kFaceVertex:
+      return MayFaceVertex(pair.a(), candidate.a, pair.b(), candidate.b);
+    case SumFacetKind::kVertexFace:
+      return MayFaceVertex(pair.b(), candidate.b, pair.a(), candidate.a);
+    case SumFacetKind::kEdgeEdge:
+      return MayEdgeEdge(pair.a(), candidate.a, pair.b(), candidate.b);
+  }
+  return true;
+}
+
+// At any rotation within the angle, n.(w - v) changes by |n||w - v| times it at most.
+bool GapFiller::MayFaceVertex(const PlacedMesh& of_face, int face, const PlacedMesh& of_vertex,
+                              int vertex) const {
+  const Vector3d& normal = of_face.planes[face].normal;
+  const double least =
+      -(padding_.angle + kSlack) * normal.norm() - 3.0 * of_face.planes[face].error;
+  const Vector3d& v = of_vertex.points[vertex];
+  for (const int h : of_vertex.mesh.vertex_half_edges(vertex)) {
+    const Vector3d way = of_vertex.points[of_vertex.mesh.head(h)] - v;
+    const double error = 4.0 * of_vertex.point_error * normal.norm();
+    if (normal.dot(way) < least * way.norm() - error) return false;
+  }
+  return true;
+}
+
+// As SupportSigns::EdgeEdge has it: in one sense or the other no sign may be certain to fail.
+bool GapFiller::MayEdgeEdge(const PlacedMesh& a, int edge_a, const PlacedMesh& b,
+                            int edge_b) const {
+  const int ha = a.mesh.half_edge_of(edge_a), hb = b.mesh.half_edge_of(edge_b);
+  const Vector3d along_a = a.points[a.mesh.head(ha)] - a.points[a.mesh.tail(ha)];
+  const Vector3d along_b = b.points[b.mesh.head(hb)] - b.points[b.mesh.tail(hb)];
+  // The sign of a normal along an edge; 0 where the padding leaves it open.
+  const auto sign = [&](const FacePlane& plane, const Vector3d& edge, const PlacedMesh& of_edge) {
+    const double length = plane.normal.norm();
+    const double bound = ((padding_.angle + kSlack) * length + 3.0 * plane.error) * edge.norm() +
+                         4.0 * of_edge.point_error * length;
+    const double value = plane.normal.dot(edge);
+    return value > bound ? 1 : value < -bound ? -1 : 0;
+  };
+  const int left_a = sign(a.planes[ha / 3], along_b, b);
+  const int right_a = sign(a.planes[a.mesh.twin(ha) / 3], along_b, b);
+  const int left_b = sign(b.planes[hb / 3], along_a, a);
+  const int right_b = sign(b.planes[b.mesh.twin(hb) / 3], along_a, a);
+  return (left_a >= 0 && right_a <= 0 && left_b >= 0 && right_b <= 0) ||
+         (left_a <= 0 && right_a >= 0 && left_b <= 0 && right_b >= 0);
+}
+
+}  // namespace touchstone::internal
