@@ -177,10 +177,30 @@ class Assembler {
 
   const std::vector<std::array<int, 3>>& TrianglesOf(int c) {
     if (triangles_[c].empty()) {
-      triangles_[c] =
-          TriangulateCell(&geometry_, arrangement_.groups[cell(c).group].plane, cell(c).loops);
+      triangles_[c] = TriangulateCell(&geometry_, arrangement_.groups[cell(c).group].plane,
+                                      InOrder(cell(c).loops));
     }
     return triangles_[c];
+  }
+
+  // The same loops, each begun at its first point in the order of coordinates, holes by that point:
+  // so that a cell is cut into the same triangles whatever else was there to be numbered.
+  std::vector<std::vector<int>> InOrder(std::vector<std::vector<int>> loops) {
+    const auto is_before = [&](int x, int y) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const int sign = geometry_.Compare(x, y, axis);
+        if (sign != 0) return sign < 0;
+      }
+      return false;
+    };
+    for (std::vector<int>& loop : loops) {
+      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), is_before), loop.end());
+    }
+    std::sort(loops.begin() + 1, loops.end(),
+              [&](const std::vector<int>& x, const std::vector<int>& y) {
+                return is_before(x[0], y[0]);
+              });
+    return loops;
   }
 
   // By a sample point in the largest triangle of the cell.
@@ -212,12 +232,15 @@ class Assembler {
       if (!is_selected_[c] || !is_kept_[patch_[c]]) continue;
       const bool is_along = !cell(c).along.empty();
       const bool is_sheet = is_along && !cell(c).against.empty();
+      const Vector3d normal = geometry_.UnitNormal(FacetOf(c));
       for (std::array<int, 3> t : TrianglesOf(c)) {
         if (!is_along) std::swap(t[1], t[2]);
         for (int& point : t) point = AddPoint(point);
         (is_sheet ? sum_.sheets : sum_.triangles).push_back(t);
         (is_sheet ? sum_.facet_of_sheet : sum_.facet_of_triangle).push_back(FacetOf(c));
-        if (!is_sheet) sum_.cell_of_triangle.push_back(number);
+        if (is_sheet) continue;
+        sum_.cell_of_triangle.push_back(number);
+        sum_.triangle_normals.push_back(normal);
       }
       number += !is_sheet;
     }

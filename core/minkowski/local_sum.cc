@@ -136,7 +136,9 @@ class LocalMinkowskiSum::Implementation {
   // Those of the list that support now: first those that meet the ball, then those near one.
   void GatherByGapFilling(const internal::ScaledBall& ball) {
     internal::SupportSigns signs(pair_, map_a_, map_b_);
+    const long gatherings = gap_filler_->gatherings();
     const std::vector<SumFacet>& candidates = gap_filler_->Candidates(pair_, ball, &*hierarchy_);
+    sum_.reused = gap_filler_->gatherings() == gatherings;
     sum_.candidates = static_cast<long>(candidates.size());
     near_.Clear();
     supported_.clear();

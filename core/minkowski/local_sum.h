@@ -84,6 +84,9 @@ struct LocalSum {
   // together there.
   std::vector<std::array<int, 3>> neighbors;
 
+  // Outward, of unit length: of the facet, not of the rounded corners.
+  std::vector<Eigen::Vector3d> triangle_normals;
+
   // The mean of the normals of the triangles listed, by their angles at the vertex: of unit length.
   // At a vertex that lies in the ball all of ∂M's triangles are listed, so it is that of ∂M.
   std::vector<Eigen::Vector3d> vertex_normals;
@@ -101,6 +104,8 @@ struct LocalSum {
   // compared; segments in which they cross; cells; patches and tests of membership.
   long candidates = 0, gathered = 0, facet_pairs = 0, crossings = 0, cells = 0, patches = 0,
        memberships = 0, exact_signs = 0;
+  // Whether gap filling went by what an earlier update had gathered.
+  bool reused = false;
   // Patches that membership calls separate: 0, or the bodies' surfaces are no embedded ones.
   int detached_patches = 0;
 

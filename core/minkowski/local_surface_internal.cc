@@ -54,22 +54,23 @@ void FindNeighbors(LocalSum* sum) {
 void FindVertexNormals(LocalSum* sum) {
   sum->vertex_normals.assign(sum->vertices.size(), Vector3d::Zero());
   std::vector<Vector3d> any(sum->vertices.size(), Vector3d::Zero());
-  for (const std::array<int, 3>& t : sum->triangles) {
-    // Of unit size: squares neither overflow nor vanish, whatever the scale of the bodies.
-    Vector3d u = sum->vertices[t[1]] - sum->vertices[t[0]];
-    Vector3d v = sum->vertices[t[2]] - sum->vertices[t[0]];
-    const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i < sum->triangles.size(); ++i) {
+    const std::array<int, 3>& t = sum->triangles[i];
+    const Vector3d& normal = sum->triangle_normals[i];
+    Vector3d sides[3];
+    double size = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      sides[k] = sum->vertices[t[(k + 1) % 3]] - sum->vertices[t[k]];
+      size = std::max(size, sides[k].cwiseAbs().maxCoeff());
+      any[t[k]] = normal;
+    }
     if (!(size > 0.0)) continue;
-    u /= size, v /= size;
-    const Vector3d cross = u.cross(v);
-    const double twice = cross.norm();
-    if (!(twice > 0.0)) continue;
-    const Vector3d normal = cross / twice;
-    const Vector3d sides[3] = {u, v - u, -v};
+    // Of unit size: squares neither overflow nor vanish, whatever the scale of the bodies.
+    for (Vector3d& side : sides) side /= size;
+    const double twice = sides[0].cross(sides[1]).norm();
     for (int k = 0; k < 3; ++k) {
       const double angle = std::atan2(twice, -sides[k].dot(sides[(k + 2) % 3]));
       sum->vertex_normals[t[k]] += angle * normal;
-      any[t[k]] = normal;
     }
   }
   for (std::size_t v = 0; v < sum->vertices.size(); ++v) {

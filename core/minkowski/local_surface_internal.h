@@ -9,9 +9,9 @@ namespace touchstone::internal {
 // Fills `neighbors` and `is_border_vertex` from `triangles`. Complexity: O(n log n).
 void FindNeighbors(LocalSum* sum);
 
-// Fills `vertex_normals`. A needle's own normal may be off where its corners are rounded; its
-// angles weigh it as they are. A vertex whose mean vanishes has the normal of one of its triangles;
-// one with none (of a sheet, a segment, a point) has a zero. Complexity: O(n).
+// Fills `vertex_normals` from `triangle_normals`. A vertex whose mean vanishes has the normal of
+// one of its triangles; one with none (of a sheet, a segment, a point) has a zero. Complexity:
+// O(n).
 void FindVertexNormals(LocalSum* sum);
 
 }  // namespace touchstone::internal

@@ -259,10 +259,39 @@ bool SumGeometry::IsVertexOfFlatFacet(const SumPoint& x, const SumFacet& facet) 
          is_on(pair_.b().mesh, x.parts[1], facet.b);
 }
 
+// The apex of a face beside the one that names the facet, against the same other vertex: the edge's
+// kind says on which side it lies, whatever the pose. Where flat polygons were cut and rounded,
+// that is what doubles cannot tell.
+std::optional<int> SumGeometry::SideOfNeighbor(const SumPoint& x, int plane) const {
+  const SumPlane& own = planes_[plane];
+  if (x.form != SumPointForm::kVertex || own.axis >= 0 ||
+      own.facet.kind == SumFacetKind::kEdgeEdge) {
+    return std::nullopt;
+  }
+  const bool is_of_a = own.facet.kind == SumFacetKind::kFaceVertex;
+  if (is_of_a ? x.parts[1] != own.facet.b : x.parts[0] != own.facet.a) return std::nullopt;
+  const TriangleMesh& mesh = is_of_a ? pair_.a().mesh : pair_.b().mesh;
+  const int face = is_of_a ? own.facet.a : own.facet.b;
+  const int vertex = x.parts[is_of_a ? 0 : 1];
+  for (int h = 3 * face; h < 3 * face + 3; ++h) {
+    if (mesh.apex(mesh.twin(h)) != vertex) continue;
+    switch (mesh.edge_kind(mesh.edge_of(h))) {
+      case EdgeKind::kConvex:
+        return -1;
+      case EdgeKind::kFlat:
+        return 0;
+      case EdgeKind::kReflex:
+        return 1;
+    }
+  }
+  return std::nullopt;
+}
+
 int SumGeometry::Side(int point, int plane) {
   const SumPoint& x = points_[point];
   const int sign = TriageSign(Height(x, planes_[plane]));
   if (sign != 0 || LiesOnByName(x, plane)) return sign;
+  if (const auto side = SideOfNeighbor(x, plane)) return *side;
   ++exact_count_;
   const ExactPoint& at = Exact(point);
   const ExactPlane& exact = ExactPlaneOf(plane);
@@ -364,6 +393,26 @@ int SumGeometry::NormalAlong(int plane, int axis) {
   if (sign != 0) return sign;
   ++exact_count_;
   return ExactPlaneOf(plane).normal[axis].sign();
+}
+
+// An error of 2^-20 of the length moves the direction by as much, times √3.
+Vector3d SumGeometry::UnitNormal(int plane) {
+  const SumPlane& own = planes_[plane];
+  const double size = MaxAbs(own.normal);
+  if (size > 0x1p20 * own.normal_error) return (own.normal / size).normalized();
+  Vector3d normal;
+  std::array<int, 3> exponents;
+  for (int i = 0; i < 3; ++i) {
+    normal[i] = ExactPlaneOf(plane).normal[i].ToScaledDouble(&exponents[i]);
+  }
+  int largest = std::numeric_limits<int>::min();
+  for (int i = 0; i < 3; ++i) {
+    if (normal[i] != 0.0) largest = std::max(largest, exponents[i]);
+  }
+  for (int i = 0; i < 3; ++i) {
+    normal[i] = normal[i] != 0.0 ? std::ldexp(normal[i], exponents[i] - largest) : 0.0;
+  }
+  return normal.normalized();
 }
 
 const SumGeometry::ExactPlane& SumGeometry::ExactPlaneOf(int plane) {

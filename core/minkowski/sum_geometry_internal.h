@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -95,6 +96,9 @@ class SumGeometry {
   int NormalAxis(int plane);
   int NormalAlong(int plane, int axis);
 
+  // A facet's outward normal, of unit length: each coordinate within 2^-18, most within 2^-40.
+  Eigen::Vector3d UnitNormal(int plane);
+
   // Makes a wide or infinite rounding error narrow, by way of the exact point.
   void Sharpen(int point);
   // Times the factor of the pair's exact pose, not scaled.
@@ -114,6 +118,7 @@ class SumGeometry {
   void RoundOfPlanes(SumPoint* point) const;
   static Estimate Height(const SumPoint& x, const SumPlane& plane);
   bool LiesOnByName(const SumPoint& x, int plane) const;
+  std::optional<int> SideOfNeighbor(const SumPoint& x, int plane) const;
   bool IsVertexOfFlatFacet(const SumPoint& x, const SumFacet& facet) const;
   const ExactPlane& ExactPlaneOf(int plane);
   ExactPoint MakeExact(const SumPoint& point);

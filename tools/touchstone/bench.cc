@@ -62,6 +62,7 @@ void AddBench(CLI::App& app, int& exit_code) {
   command->require_subcommand(1);
   AddBenchConvex(*command, exit_code);
   AddBenchFigures(*command, exit_code);
+  AddBenchMinkowski(*command, exit_code);
   AddBenchSupport(*command, exit_code);
 }
 

@@ -25,6 +25,7 @@ void ShowProgress(double fraction);
 // What can be timed: one subcommand of `bench` a file.
 void AddBenchConvex(CLI::App& bench, int& exit_code);
 void AddBenchFigures(CLI::App& bench, int& exit_code);
+void AddBenchMinkowski(CLI::App& bench, int& exit_code);
 void AddBenchSupport(CLI::App& bench, int& exit_code);
 
 }  // namespace touchstone
