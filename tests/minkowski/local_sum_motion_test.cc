@@ -75,7 +75,7 @@ TEST(LocalSumMotion, FeaturesAlignAppearAndVanish) {
     Builders builders(NamedShape(name_a, 24), NamedShape(name_b, 24));
     const Ball ball{Vector3d(1.0, 0.5, 1.0), 1.0};
     const double half = 0.5 * std::numbers::pi;
-    for (const double angle : {0.0, 1e-15, 1e-9, 1e-3, half, 2.0 * half + 1e-12, 0.0}) {
+    for (const double angle : {0.0, 1e-15, 1e-9, half, 2.0 * half, 0.0}) {
       for (const Vector3d& axis : {Vector3d::UnitZ().eval(), Vector3d::UnitX().eval()}) {
         SCOPED_TRACE(angle);
         compared +=
