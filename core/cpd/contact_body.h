@@ -24,6 +24,8 @@ class ContactBody {
     int left, right;  // faces
   };
 
+  // Whether the other is a copy.
+  bool IsSameAs(const ContactBody& other) const { return data_ == other.data_; }
   const TriangleMesh& mesh() const { return data_->mesh; }
   const GaussMap& gauss_map() const { return data_->gauss_map; }
   const Edge& edge(int e) const { return data_->edges[e]; }

@@ -2,6 +2,7 @@
 #include "touchstone/core/cpd/contact_name_internal.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace touchstone::internal {
@@ -89,6 +90,21 @@ PlaneEstimate EstimatePlane(const MeshPair& pair, const SumFacet& facet) {
   // A vector off by e in each coordinate and then divided by its length is off by at most
   // 2 sqrt(3) e / length, and by four roundings.
   return {normal, normal.dot(at), 3.5 * error / length + 4.0 * kUnit};
+}
+
+Vector3d ContactPointOnA(const MeshPair& pair, const SumFacet& facet, const Vector3d& q) {
+  const PlacedMesh &a = pair.a(), &b = pair.b();
+  if (facet.kind == SumFacetKind::kFaceVertex) return b.points[facet.b] + q;
+  if (facet.kind == SumFacetKind::kVertexFace) return a.points[facet.a];
+  const auto of_a = EndsOf(a.mesh, facet.a), of_b = EndsOf(b.mesh, facet.b);
+  const Vector3d& from = a.points[of_a[0]];
+  const Vector3d u = a.points[of_a[1]] - from, v = b.points[of_b[1]] - b.points[of_b[0]];
+  // from + s u lies on B's edge moved by q.
+  const Vector3d normal = u.cross(v);
+  const double squared = normal.squaredNorm();
+  const Vector3d gap = b.points[of_b[0]] + q - from;
+  const double s = squared > 0.0 ? gap.cross(v).dot(normal) / squared : 0.5;
+  return from + std::clamp(s, 0.0, 1.0) * u;
 }
 
 std::optional<PointEstimate> EstimatePoint(const MeshPair& pair, const ContactName& name) {

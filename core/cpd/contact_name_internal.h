@@ -40,6 +40,10 @@ struct PlaneEstimate {
 };
 PlaneEstimate EstimatePlane(const MeshPair& pair, const SumFacet& facet);
 
+// Where A is touched, in the pair's scaled frame, when B is moved by a point `q` of the facet.
+Eigen::Vector3d ContactPointOnA(const MeshPair& pair, const SumFacet& facet,
+                                const Eigen::Vector3d& q);
+
 // The vertex of M in doubles.
 inline Eigen::Vector3d EstimateVertex(const MeshPair& pair, const SumVertex& v) {
   return pair.a().points[v.a] - pair.b().points[v.b];

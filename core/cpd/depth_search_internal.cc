@@ -25,6 +25,8 @@ constexpr double kGrowth = 1.5;            // of the radius within which facets 
 constexpr double kRoundUp = 1.0 + 0x1p-50;
 // R may be off orthonormal by 1e-6: balls become ellipsoids.
 constexpr double kBallShrink = 1.0 - 4e-6;
+constexpr double kListFrames = 8.0;  // steps of a motion that a list has room for
+constexpr double kListAngle = 0.06;  // beyond, lists would hold too much
 constexpr std::size_t kRememberedPrisms = 128;
 constexpr std::size_t kRememberedBalls = 16;
 
@@ -49,7 +51,6 @@ class Search {
     if (at_origin.verdict == Verdict::kOverlap) {
       AddWitness(Vector3d::Zero(), at_origin.face_a, at_origin.face_b);
     }
-    PlaceTrees();
     Explore();
     Remember();
     return answer_;
@@ -264,7 +265,57 @@ class Search {
 
   // --- facets ---
 
-  void PlaceTrees() {
+  // How far B's points move from another pose, scaled, and how far it turns, at most: a matrix's
+  // Frobenius norm bounds what it does to a unit vector, and is sqrt 2 times a small turn.
+  struct Motion {
+    double distance, angle;
+  };
+  Motion MotionFrom(const RelativePose& other) const {
+    const double turn = (pair_.pose().rotation() - other.rotation()).norm();
+    const double shift = (pair_.pose().translation() - other.translation()).norm();
+    return {pair_.scale() * (1.7321 * turn * b_.mesh().max_coordinate() + shift) * kRoundUp, turn};
+  }
+
+  // Along a slow motion the pairs of features in the way are listed once, with room for the motion
+  // to go on, and only looked through afterwards.
+  bool UseList() {
+    FeatureList& list = s_.list;
+    const bool is_of_these = list.a && list.b && list.a->IsSameAs(a_) && list.b->IsSameAs(b_) &&
+                             list.scale == pair_.scale();
+    if (is_of_these && answer_.upper <= list.limit) {
+      const Motion motion = MotionFrom(list.pose);
+      if (motion.distance <= list.distance && motion.angle <= list.angle) {
+        AddItems();
+        return true;
+      }
+    }
+    if (!answer_.was_warm || !s_.pose) return false;
+    const Motion step = MotionFrom(*s_.pose);
+    if (!(kListFrames * step.angle < kListAngle)) return false;
+    list.a = a_;
+    list.b = b_;
+    list.pose = pair_.pose();
+    list.scale = pair_.scale();
+    list.distance = kListFrames * step.distance + 0x1p-40;
+    list.angle = kListFrames * step.angle + 0x1p-40;
+    list.limit = 1.02 * answer_.upper + list.distance;
+    list.items.clear();
+    PlaceTrees(list.distance, list.angle);
+    is_listing_ = true;
+    radius_ = list.limit;
+    ExpandWithinRadius();
+    is_listing_ = false;
+    s_.later.clear();
+    AddItems();
+    return true;
+  }
+
+  void AddItems() {
+    radius_ = answer_.upper;
+    for (const NodePair& item : s_.list.items) AddItem(item.kind, item.a, item.b);
+  }
+
+  void PlaceTrees(double distance, double angle) {
     const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
     const Vector3d zero = Vector3d::Zero();
     const double scale = pair_.scale();
@@ -274,10 +325,10 @@ class Search {
     s_.hollows_a.Place(a_.hollow_vertices(), identity, zero, scale);
     const Eigen::Matrix3d& rotation = pair_.pose().rotation();
     const Vector3d& translation = pair_.pose().translation();
-    s_.faces_b.Place(b_.faces(), rotation, translation, scale);
-    s_.vertices_b.Place(b_.vertices(), rotation, translation, scale);
-    s_.edges_b.Place(b_.convex_edges(), rotation, translation, scale);
-    s_.hollows_b.Place(b_.hollow_vertices(), rotation, translation, scale);
+    s_.faces_b.Place(b_.faces(), rotation, translation, scale, distance, angle);
+    s_.vertices_b.Place(b_.vertices(), rotation, translation, scale, distance, angle);
+    s_.edges_b.Place(b_.convex_edges(), rotation, translation, scale, distance, angle);
+    s_.hollows_b.Place(b_.hollow_vertices(), rotation, translation, scale, distance, angle);
     for (const SumKind kind :
          {SumKind::kFaceVertex, SumKind::kVertexFace, SumKind::kEdgeEdge, SumKind::kVertexVertex}) {
       if (!TreeA(kind).empty() && !TreeB(kind).empty()) s_.later.push_back({0.0, kind, 0, 0});
@@ -315,7 +366,7 @@ class Search {
   void ExpandWithinRadius() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < s_.later.size(); ++i) {
-      if (s_.later[i].near >= answer_.upper) continue;
+      if (!is_listing_ && s_.later[i].near >= answer_.upper) continue;
       if (s_.later[i].near < radius_) {
         s_.stack.push_back(s_.later[i]);
       } else {
@@ -342,7 +393,10 @@ class Search {
     const FeatureNode& node_a = NodeOf(TreeA(pair.kind), pair.a, &alone_a);
     const FeatureNode& node_b = NodeOf(TreeB(pair.kind), pair.b, &alone_b);
     std::uint8_t masks[kFeatureTreeWidth];
-    MeetingFeatures(node_a, node_b, answer_.upper, pair.kind != SumKind::kVertexVertex, masks);
+    const double limit = is_listing_ ? s_.list.limit : answer_.upper;
+    // Whatever the motion does, a ball and a facet move by no more than the distance each.
+    const double margin = is_listing_ ? s_.list.distance : 0.0;
+    MeetingFeatures(node_a, node_b, limit, pair.kind != SumKind::kVertexVertex, masks);
     for (int j = 0; j < node_b.lane_count; ++j) {
       for (unsigned mask = masks[j]; mask != 0; mask &= mask - 1) {
         const int i = std::countr_zero(mask);
@@ -353,9 +407,13 @@ class Search {
                               node_a.centre[2][i] - node_b.centre[2][j]);
         const double radius = node_a.radius[i] + node_b.radius[j];
         const double near = centre.norm() - radius;
-        if (s_.balls.Holds(centre, radius)) continue;
+        if (s_.balls.Holds(centre, radius + margin)) continue;
         if (is_item && near < radius_) {
-          AddItem(pair.kind, ~child_a, ~child_b);
+          if (is_listing_) {
+            s_.list.items.push_back({near, pair.kind, ~child_a, ~child_b});
+          } else {
+            AddItem(pair.kind, ~child_a, ~child_b);
+          }
           continue;
         }
         const NodePair next = {near, pair.kind,
@@ -517,9 +575,11 @@ class Search {
   // --- pieces ---
 
   void Explore() {
-    const double far = answer_.upper;
-    radius_ = answer_.was_warm ? far : 0.0625 * far;
-    ExpandWithinRadius();
+    if (!UseList()) {
+      PlaceTrees(0.0, 0.0);
+      radius_ = answer_.was_warm ? answer_.upper : 0.0625 * answer_.upper;
+      ExpandWithinRadius();
+    }
     while (true) {
       const double near = s_.heap.empty() ? radius_ : s_.heap.front().first;
       if (near >= radius_ || s_.heap.empty()) {
@@ -779,6 +839,7 @@ class Search {
   // What helps the next query.
   void Remember() {
     s_.answer = answer_.name;
+    s_.pose = pair_.pose();
     s_.prism_names.clear();
     for (int i = s_.prisms.size() - 1; i >= 0 && s_.prism_names.size() < kRememberedPrisms; --i) {
       if (s_.prism_uses[i] > 0) s_.prism_names.push_back(s_.prisms.prism(i).name);
@@ -800,6 +861,7 @@ class Search {
   double radius_ = 0.0;
   double open_ = std::numeric_limits<double>::infinity();
   bool found_ = false;
+  bool is_listing_ = false;
   int crumbs_ = 0;
   std::vector<std::pair<int, int>> met_balls_;
 };

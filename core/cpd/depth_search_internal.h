@@ -35,8 +35,19 @@ struct MetFacet {
   SumVertex vertex;
 };
 
+// Pairs of features that can have a facet within `limit` of the origin at any pose near `pose`: one
+// that moves B's points by no more than `distance` (scaled) and turns it by no more than `angle`.
+struct FeatureList {
+  std::optional<ContactBody> a, b;  // of which it was made; none: no list
+  RelativePose pose;
+  double scale = 0.0, limit = 0.0, distance = 0.0, angle = 0.0;
+  std::vector<NodePair> items;  // by the features' own numbers
+};
+
 struct DepthScratch {
   // What the last answer was made of.
+  std::optional<RelativePose> pose;
+  FeatureList list;
   std::optional<ContactName> answer;
   std::vector<PrismName> prism_names;
   std::vector<std::pair<int, int>> ball_faces;

@@ -113,19 +113,7 @@ class Contacts {
   Vector3d OfVertex(const SumVertex& v) const { return pair_.a().points[v.a]; }
 
   Vector3d OfFacet(const SumFacet& facet) const {
-    if (facet.kind == SumFacetKind::kFaceVertex) return pair_.b().points[facet.b] + q_;
-    if (facet.kind == SumFacetKind::kVertexFace) return pair_.a().points[facet.a];
-    const TriangleMesh &a = pair_.a().mesh, &b = pair_.b().mesh;
-    const int ha = a.half_edge_of(facet.a), hb = b.half_edge_of(facet.b);
-    const Vector3d &from = pair_.a().points[a.tail(ha)], &to = pair_.a().points[a.head(ha)];
-    const Vector3d u = to - from;
-    const Vector3d v = pair_.b().points[b.head(hb)] - pair_.b().points[b.tail(hb)];
-    // from + s u lies on B's edge moved by q.
-    const Vector3d normal = u.cross(v);
-    const double squared = normal.squaredNorm();
-    const Vector3d gap = pair_.b().points[b.tail(hb)] + q_ - from;
-    const double s = squared > 0.0 ? gap.cross(v).dot(normal) / squared : 0.5;
-    return from + std::clamp(s, 0.0, 1.0) * u;
+    return internal::ContactPointOnA(pair_, facet, q_);
   }
 
   const MeshPair& pair_;
@@ -228,6 +216,9 @@ MeshDepthCache& MeshDepthCache::operator=(MeshDepthCache&&) noexcept = default;
 
 void MeshDepthCache::Clear() {
   scratch_->answer.reset();
+  scratch_->pose.reset();
+  scratch_->list.a.reset();
+  scratch_->list.b.reset();
   scratch_->prism_names.clear();
   scratch_->ball_faces.clear();
   scratch_->membership.witness = {-1, -1};

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+//   paper        here              meaning, in A's frame
+//   q            translation       B moved by q, or A by -q, and the bodies just touch: q is on ∂M,
+//                                  M° = int A ⊕ -int B and ∂M = closure(M°) minus M°
+//   S_i, r       ball              the ball in which ∂M is made
+//   α, β         ball_ratio, ball_growth
+//   ∂M(S_i)      LocalSum
+//   Ψ            TangentBasis
+#ifndef TOUCHSTONE_CORE_CPD_CONTINUOUS_PENETRATION_DEPTH_H_
+#define TOUCHSTONE_CORE_CPD_CONTINUOUS_PENETRATION_DEPTH_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "touchstone/core/base/relative_pose.h"
+#include "touchstone/core/cpd/phong_projection.h"
+#include "touchstone/core/mesh/triangle_mesh.h"
+#include "touchstone/core/minkowski/local_sum.h"
+
+namespace touchstone {
+
+struct ContinuousDepthOptions {
+  double ball_ratio = 0.3;
+  double ball_growth = 2.0;
+  int iteration_limit = 12;  // local sums made for one answer, at most
+  NormalWeights weights = NormalWeights::kAngle;
+  PhongInterpolation interpolation = PhongInterpolation::kTangentBasis;
+  // Follows the solution of the answer before while it lasts; otherwise every answer is the nearest
+  // of the local solutions, as definition (8) has it, and may jump between branches.
+  bool track_branch = true;
+  LocalBuilder builder = LocalBuilder::kSphereHierarchy;
+};
+
+enum class ContinuousDepthStatus : std::uint8_t {
+  kSeparate,     // the interiors do not meet: depth 0
+  kFound,        // a Phong projection
+  kApproximate,  // the ball held all of ∂M and no projection: what comes nearest to one
+  kLimit,        // stopped at the limit without one: what came nearest
+};
+std::string_view ToString(ContinuousDepthStatus status);
+
+struct ContinuousDepthResult {
+  ContinuousDepthStatus status = ContinuousDepthStatus::kSeparate;
+  // On ∂M up to rounding. Zero where the bodies do not overlap.
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // of the translation, of unit length
+  double residual = 0.0;  // the sine of the angle between the translation and the normal there
+
+  // What touches when B is moved so: the features, and where they are on A, and on B before it is
+  // moved. A penalty force on B is along the direction, at point_on_b.
+  SumFacet features;
+  Eigen::Vector3d point_on_a = Eigen::Vector3d::Zero(), point_on_b = Eigen::Vector3d::Zero();
+  // The rate of the translation with B's, 3 x 3, where the solution is simple. With a turn of B,
+  // ∂M itself changes: see README.
+  std::optional<Eigen::Matrix3d> rate_of_translation;
+
+  // Numbers the branches of solutions that a solver has followed; an answer continues the one
+  // before iff they agree.
+  int branch = 0;
+  bool branch_ended = false;           // the branch of the answer before was not found again
+  bool combinatorics_changed = false;  // the solution lies on another facet than before
+  int solutions = 0;                   // found in the last local sum
+
+  int iterations = 0;
+  Ball ball;  // of the last local sum
+  int local_triangles = 0;
+  double depth_ms = 0.0, minkowski_ms = 0.0, phong_ms = 0.0, total_ms = 0.0;
+};
+
+// What a solver keeps of the answer before: put back, it follows the motion from there again.
+struct ContinuousDepthState {
+  RelativePose pose;
+  Eigen::Vector3d translation;
+  double rate;  // the norm of the solution's rate with the origin
+  // A ball that holds the solution's triangle.
+  Ball triangle;
+  Eigen::Vector3d contact;  // where B is touched, in its own frame
+  SumFacet features;
+  bool was_found;  // or an approximation
+  int branch;
+};
+
+// Continuous penetration depth of two closed meshes along a motion, a pose at a time: Algorithm 2
+// with its misprints mended (README). One per thread; not pure, for it follows the motion. Never
+// throws, never returns NaN.
+//
+// Complexity of an answer: an initial global depth when nothing came before, and as many local sums
+// as iterations.
+// Source: Lee, Behar, Lien, Kim 2016, sections 3.3 and 6.
+class ContinuousPenetrationDepth {
+ public:
+  ContinuousPenetrationDepth(TriangleMesh a, TriangleMesh b,
+                             const ContinuousDepthOptions& options = {});
+  ~ContinuousPenetrationDepth();
+  ContinuousPenetrationDepth(ContinuousPenetrationDepth&&) noexcept;
+  ContinuousPenetrationDepth& operator=(ContinuousPenetrationDepth&&) noexcept;
+
+  ContinuousDepthResult Update(const RelativePose& pose);
+  // Nothing where the bodies were separate, or nothing came before.
+  std::optional<ContinuousDepthState> state() const;
+  void set_state(const std::optional<ContinuousDepthState>& state);
+  // Forgets the motion: the next answer begins with the global depth.
+  void Forget();
+
+  // What the last answer was found on.
+  const LocalSum& local_sum() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace touchstone
+
+#endif  // TOUCHSTONE_CORE_CPD_CONTINUOUS_PENETRATION_DEPTH_H_

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+//
+//   paper            here              meaning
+//   ∂M               PhongSurface      a triangulated surface with normals at its vertices
+//   q_1, q_2, q_3    vertices          of a triangle
+//   λ                PhongPoint::at    barycentric coordinates
+//   T                                  a basis of the tangent plane at a vertex, two rows
+//   Ψ(λ)             TangentBasis      the interpolated one
+//   o                the origin
+#ifndef TOUCHSTONE_CORE_CPD_PHONG_PROJECTION_H_
+#define TOUCHSTONE_CORE_CPD_PHONG_PROJECTION_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace touchstone {
+
+// A view of a surface: triangles counterclockwise seen from outside.
+struct PhongSurface {
+  std::span<const Eigen::Vector3d> vertices;
+  std::span<const std::array<int, 3>> triangles;
+  // neighbors[t][k] across the side from corner k to k + 1; -1: none.
+  std::span<const std::array<int, 3>> neighbors;
+  std::span<const Eigen::Vector3d> normals;  // of vertices, of unit length
+};
+
+enum class NormalWeights : std::uint8_t { kAngle, kArea, kUniform };
+
+// The mean of the normals of a vertex's triangles, by these weights; of unit length, or zero where
+// they cancel. Complexity: O(n).
+std::vector<Eigen::Vector3d> VertexNormals(std::span<const Eigen::Vector3d> vertices,
+                                           std::span<const std::array<int, 3>> triangles,
+                                           NormalWeights weights = NormalWeights::kAngle);
+
+// How the surface's normals are made continuous between vertices.
+enum class PhongInterpolation : std::uint8_t {
+  kTangentBasis,  // bases of tangent planes, aligned along each side and blended
+  // The normals themselves: the paper's Figure 2a. Vanishes where normals at the ends of a side are
+  // opposite, and finds points there that no tangent plane makes.
+  kNormals,
+};
+
+struct PhongOptions {
+  PhongInterpolation interpolation = PhongInterpolation::kTangentBasis;
+  // Newton begins at the barycentre only, as in the paper; or also at those of the 16 triangles
+  // that two rounds of midpoints make, which finds solutions beside the first.
+  bool find_all = false;
+  int newton_limit = 20;
+};
+
+// A Phong projection of the origin: λ >= 0, and q orthogonal to the tangent plane there, outward.
+struct PhongPoint {
+  int triangle = -1;
+  Eigen::Vector3d at;        // λ, adds up to one
+  Eigen::Vector3d position;  // q
+  // |Ψ(λ) q| / |q| for a basis of two orthonormal rows: the sine of the angle between q and the
+  // normal.
+  double residual = 0.0;
+  // The rate of q with a motion of the origin, 3 x 3; nothing at a multiple solution, where the
+  // Jacobian vanishes.
+  std::optional<Eigen::Matrix3d> rate;
+};
+
+// The interpolated tangent plane of one triangle.
+//
+// Bases at the ends of a side are turned in their planes until they agree best (reflections
+// allowed: a plane has no sign), and blended linearly: that is the side's basis, the same seen from
+// either triangle. Inside, the three sides' bases, turned to agree with the first corner's, are
+// blended with weights λ_i λ_j, which on a side leave its own. (Panozzo, Baran, Diamanti,
+// Sorkine-Hornung, "Weighted averages on surfaces", 2013; the paper omits the recipe.)
+class TangentBasis {
+ public:
+  TangentBasis(const std::array<Eigen::Vector3d, 3>& normals, PhongInterpolation interpolation);
+
+  using Basis = Eigen::Matrix<double, 2, 3>;
+  // Ψ(λ), up to a positive factor, and its derivatives with each λ_i.
+  Basis At(const Eigen::Vector3d& at, std::array<Basis, 3>* derivatives) const;
+
+ private:
+  bool by_normals_;
+  std::array<Eigen::Vector3d, 3> normals_;
+  // sides_[k][e]: the basis that corner k + e (mod 3) has on side k, from corner k to k + 1.
+  std::array<std::array<Basis, 2>, 3> sides_;
+};
+
+// Appends the Phong projections of the origin onto one triangle. Returns how many.
+// Complexity: O(1). No errors; needles and vanishing normals have none.
+int ProjectOntoTriangle(const PhongSurface& surface, int triangle, const PhongOptions& options,
+                        std::vector<PhongPoint>* points);
+
+// The sine of the angle between the barycentre, seen from the origin, and the normal there: how
+// nearly a triangle without a solution has one. The argmin of Algorithm 2, made a number.
+double MisfitAtBarycentre(const PhongSurface& surface, int triangle,
+                          PhongInterpolation interpolation);
+
+// Breadth-first from a triangle across sides until one has a projection: that one's. Or nothing.
+std::vector<PhongPoint> ProjectByBreadthFirst(const PhongSurface& surface, int from,
+                                              const PhongOptions& options);
+
+}  // namespace touchstone
+
+#endif  // TOUCHSTONE_CORE_CPD_PHONG_PROJECTION_H_
