@@ -4,6 +4,7 @@
 #include <exception>
 #include <iostream>
 
+#include "touchstone/tools/touchstone/minkowski_local.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 #include "touchstone/tools/words.h"
 
@@ -39,6 +40,7 @@ int Run(int argc, char** argv) {
   AddMembership(app, exit_code);
   // Otherwise CLI11 says only that a subcommand is required.
   const auto is_asked = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  AddMinkowskiLocal(app, exit_code);
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_asked).empty()) {
     throw BadInput{"there is no subcommand '" + std::string(argv[1]) + "'; see touchstone --help"};
   }
