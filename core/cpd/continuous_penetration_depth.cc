@@ -27,7 +27,9 @@ double Since(Clock::time_point begin) {
 
 // A solution moves no faster than its rate says, times this: between frames the rate itself
 // changes. Beyond, it is another one.
-constexpr double kBranchReach = 4.0;
+constexpr double kBranchReach = 16.0;
+// The first ball has room for this much of it; if the branch is not there, the next has for α|q|.
+constexpr double kBallPart = 0.125;
 // The least ball, over the size of the pair: at a shallow touch α|q| would vanish.
 constexpr double kLeastBall = 1e-4;
 
@@ -110,7 +112,7 @@ class ContinuousPenetrationDepth::Implementation {
         // can have gone.
         is_near_only_ = true;
         at_ = last_->triangle.center;
-        radius_ = last_->triangle.radius + std::max(BranchReach(), least_radius_);
+        radius_ = last_->triangle.radius + std::max(kBallPart * BranchReach(), least_radius_);
       }
     } else {
       at_ = MeshPenetrationDepth(pair_, a_, b_, {}, &depth_cache_).translation;
@@ -180,7 +182,7 @@ class ContinuousPenetrationDepth::Implementation {
     PhongPoint chosen;
     bool continues = false;
     if (options_.track_branch && last_ && last_->was_found) {
-      continues = Nearest(last_->translation, BranchReach(), false, &chosen);
+      continues = Nearest(last_->translation, BranchReach(), !is_near_only_, &chosen);
     }
     if (!continues && is_near_only_) {
       is_near_only_ = false;
