@@ -215,8 +215,8 @@ class Query {
           if (cut && cut->first != cut->second) cuts.push_back(*cut);
         }
       }
-      for (const RationalPoint& sample : t.SamplePieces(cuts)) {
-        if (IsInside(body, t, coplanar, sample)) return true;
+      for (const RationalTriangle::Piece& piece : t.Pieces(cuts)) {
+        if (IsInside(body, t, coplanar, piece.sample)) return true;
       }
     }
     return false;

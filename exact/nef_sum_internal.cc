@@ -1,65 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "touchstone/exact/nef_sum_internal.h"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Nef_polyhedron_3.h>
-#include <CGAL/Polyhedron_3.h>
-#include <CGAL/Polyhedron_incremental_builder_3.h>
+#include <CGAL/Nef_polyhedron_3.h>  // before minkowski_sum_3.h, which leans on it
 #include <CGAL/minkowski_sum_3.h>
 
-#include <sstream>
+#include "touchstone/exact/nef_kernel_internal.h"
 
 namespace touchstone::exact {
 namespace {
-
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Polyhedron = CGAL::Polyhedron_3<Kernel>;
-using Nef = CGAL::Nef_polyhedron_3<Kernel>;
-
-// By way of decimal text: whatever the kernel's exact type is, both sides read and write it.
-Kernel::FT ToField(const Integer& value) {
-  std::istringstream text(value.get_str());
-  Kernel::FT::Exact_type exact;
-  text >> exact;
-  return Kernel::FT(exact);
-}
-
-mpq_class ToRational(const Kernel::FT& value) {
-  std::ostringstream text;
-  text << value.exact();
-  mpq_class result(text.str());
-  result.canonicalize();
-  return result;
-}
-
-class Builder : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
- public:
-  explicit Builder(const IntegerPolyhedron& body) : body_(body) {}
-
-  void operator()(Polyhedron::HalfedgeDS& structure) override {
-    CGAL::Polyhedron_incremental_builder_3<Polyhedron::HalfedgeDS> builder(structure, true);
-    builder.begin_surface(body_.points.size(), body_.loops.size());
-    for (const IntegerVector& x : body_.points) {
-      builder.add_vertex(Kernel::Point_3(ToField(x[0]), ToField(x[1]), ToField(x[2])));
-    }
-    for (const std::vector<int>& loop : body_.loops) {
-      builder.begin_facet();
-      for (const int v : loop) builder.add_vertex_to_facet(v);
-      builder.end_facet();
-    }
-    builder.end_surface();
-  }
-
- private:
-  const IntegerPolyhedron& body_;
-};
-
-Nef MakeNef(const IntegerPolyhedron& body) {
-  Builder builder(body);
-  Polyhedron polyhedron;
-  polyhedron.delegate(builder);
-  return Nef(polyhedron);
-}
 
 // The plane's four coefficients, times what makes them whole.
 std::pair<IntegerVector, Integer> ToPlane(const Kernel::Plane_3& plane) {

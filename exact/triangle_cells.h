@@ -37,12 +37,22 @@ class RationalTriangle {
 
   // Of points and segments in the plane: does the closed triangle hold, or meet, them?
   bool Holds(const RationalPoint& x) const;
+  bool HoldsInside(const RationalPoint& x) const;  // the open triangle
   bool Meets(const RationalSegment& segment) const;
 
-  // Points of the open triangle, at least one in every piece that segments in the plane cut it
-  // into. Between the heights at which segments begin, end or cross one another, a line is laid; it
-  // passes every piece that reaches so high, and the middle between two crossings is a sample.
-  std::vector<RationalPoint> SamplePieces(std::span<const RationalSegment> segments) const;
+  // A connected piece of the open triangle.
+  struct Piece {
+    RationalPoint sample;  // inside it
+    mpq_class area;        // of its shadow along `axis()`
+  };
+  // The pieces that segments in the plane cut the open triangle into. Between the heights at which
+  // segments begin, end or cross one another, they cut it into trapezoids; those that meet along a
+  // height where no segment lies between them are one piece. Complexity: O(n^2 log n) and the
+  // heights times n.
+  std::vector<Piece> Pieces(std::span<const RationalSegment> segments) const;
+
+  // A coordinate of the normal that is not zero.
+  int axis() const { return axis_; }
 
  private:
   using Flat = std::array<mpq_class, 2>;

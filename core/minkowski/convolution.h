@@ -4,38 +4,18 @@
 //   A, B          a, b             the meshes; B placed in A's frame by the pair's pose
 //   M             A ⊕ -B           its points a - b are named by pairs of vertices
 //   A ⊗ -B        Convolution      the reduced convolution: the facets of two features that support
-//   each
-//                                  other locally, a superset of the boundary of M°
+//                                  each other locally, a superset of the boundary of M°
 #ifndef TOUCHSTONE_CORE_MINKOWSKI_CONVOLUTION_H_
 #define TOUCHSTONE_CORE_MINKOWSKI_CONVOLUTION_H_
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/minkowski/gauss_map.h"
+#include "touchstone/core/minkowski/sum_facet.h"
 
 namespace touchstone {
-
-// The point a - b of M for a vertex of A and one of B.
-struct SumVertex {
-  int a = -1, b = -1;
-  friend auto operator<=>(const SumVertex&, const SumVertex&) = default;
-};
-
-enum class SumFacetKind : std::uint8_t { kFaceVertex, kVertexFace, kEdgeEdge };
-
-// A facet of the convolution: a face of A against a vertex of B, a vertex of A against a face of B,
-// or an edge of each, by their indices.
-struct SumFacet {
-  SumFacetKind kind;
-  // For kEdgeEdge: whether the outward normal is along (head - tail of A's edge) x (the same of
-  // B's), rather than against it, the edges run as their half-edges do.
-  bool is_along_cross = false;
-  int a = -1, b = -1;
-  friend auto operator<=>(const SumFacet&, const SumFacet&) = default;
-};
 
 // The facet's corners, counterclockwise seen from outside M; a triangle repeats no corner and has
 // three, a parallelogram four.

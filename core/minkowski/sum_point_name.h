@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "touchstone/core/minkowski/convolution.h"
+#include "touchstone/core/minkowski/sum_facet.h"
 
 namespace touchstone {
 
