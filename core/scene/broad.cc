@@ -21,7 +21,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A fat box is larger than the part's by this part of its radius, and by so many of the last
-// step's motions: measured, README.md.
+// step's motions unless that is more than the radius: measured, README.md.
 constexpr double kFatOfRadius = 0.05;
 constexpr double kFatOfMotion = 8.0;
 
@@ -55,8 +55,8 @@ void Scene::Data::MakeBox(int part) {
   const SceneBody& body = bodies[data.body];
   const Box3 tight =
       Grown(internal::PlacedBox(*data.part, body.pose), LookAhead(body.subscriptions));
-  const double fat = kFatOfRadius * data.part->outer_radius() +
-                     std::min(kFatOfMotion * data.step_motion, data.part->outer_radius());
+  const double radius = data.part->outer_radius(), ahead = kFatOfMotion * data.step_motion;
+  const double fat = kFatOfRadius * radius + (ahead < radius ? ahead : 0.0);
   // A part that is nearly out of its box gets a new one at once.
   if (box_limit[part] != -kInfinity) {
     const double clearance = Clearance(tight, boxes[part]);

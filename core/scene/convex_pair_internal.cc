@@ -143,6 +143,39 @@ void ImproveDirection(const PlacedPart& p, const PlacedPart& q, const RelativePo
   KeepDirection(p, q, p.pose->rotation * distance.direction, state, margin);
 }
 
+// Balls that are hardly apart hold bodies that are further apart: along the last direction, or from
+// middle to middle.
+void StretchMargin(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules,
+                   PairState* state, Margin* margin) {
+  if (rules.guesses && state->has_direction) {
+    const Margin found = MarginByDirection(p, q, state);
+    if (found.value > margin->value) {
+      *margin = found;
+      return;
+    }
+  }
+  const Vector3d between =
+      (q.pose->translation - p.pose->translation) + (q.turned_middle - p.turned_middle);
+  KeepDirection(p, q, between, state, margin);
+}
+
+// The same for a pair that is looked at often, since its margins are short: now and again, and the
+// more seldom where it did not pay.
+void ImproveInTurn(const PlacedPart& p, const PlacedPart& q, PairState* state, Margin* margin,
+                   SceneCounters* counters) {
+  constexpr std::uint8_t kLooksBetween = 8;
+  if (state->patience > 0) {
+    --state->patience;
+    return;
+  }
+  ++counters->improved;
+  const double before = margin->value;
+  const auto pose = RelativePose::FromWorld(*p.pose, *q.pose);
+  assert(pose.ok());  // kMaxWorldTranslation
+  ImproveDirection(p, q, *pose, state, margin);
+  if (margin->value < 2.0 * before) state->patience = kLooksBetween;
+}
+
 Verdict DecideByExactSigns(const PlacedPart& p, const PlacedPart& q, const RelativePose& pose) {
   MinkowskiDifference m(p.part->convex(), q.part->convex(), pose);
   ChooseInteriorDifference(&m);
@@ -158,6 +191,13 @@ Verdict DecideByExactSigns(const PlacedPart& p, const PlacedPart& q, const Relat
 Margin Ask(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules, double enough,
            PairState* state, SceneCounters* counters) {
   ++counters->queries;
+  CollideCache cache;
+  if (rules.guesses && state->has_triangle) {
+    cache.has_triangle = true;
+    std::copy(state->triangle, state->triangle + 3, cache.triangle.begin());
+    cache.interior_p = state->interior_p;
+    cache.interior_q = state->interior_q;
+  }
   state->has_direction = state->has_triangle = false;
   const auto pose = RelativePose::FromWorld(*p.pose, *q.pose);
   assert(pose.ok());  // kMaxWorldTranslation
@@ -165,7 +205,6 @@ Margin Ask(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules, do
     ++counters->exact_queries;
     return {DecideByExactSigns(p, q, *pose), 0.0};
   }
-  CollideCache cache;
   const CollideResult result =
       Collide(p.part->convex(), q.part->convex(), *pose, {.early_exit = true}, &cache);
   if (result.exact_signs > 0) ++counters->exact_queries;
@@ -175,7 +214,10 @@ Margin Ask(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules, do
     if (cache.has_direction) {
       KeepDirection(p, q, p.pose->rotation * cache.direction, state, &margin);
     }
-    if (rules.margins && margin.value < enough) ImproveDirection(p, q, *pose, state, &margin);
+    if (rules.margins && margin.value < enough) {
+      ++counters->improved;
+      ImproveDirection(p, q, *pose, state, &margin);
+    }
   } else if (result.verdict == Verdict::kOverlap && cache.has_triangle) {
     std::copy(cache.triangle.begin(), cache.triangle.end(), state->triangle);
     state->interior_p = static_cast<std::uint8_t>(cache.interior_p & 1);
@@ -248,9 +290,12 @@ Margin MarginBySimplex(const PlacedPart& p, const PlacedPart& q, const PairState
 Margin DecideConvex(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules,
                     double enough, PairState* state, SceneCounters* counters) {
   if (rules.balls) {
-    const Margin margin = MarginByBalls(p, q);
+    Margin margin = MarginByBalls(p, q);
     if (margin.verdict != Verdict::kUndecided) {
       ++counters->by_balls;
+      if (margin.verdict == Verdict::kSeparate && rules.margins && margin.value < enough) {
+        StretchMargin(p, q, rules, state, &margin);
+      }
       return margin;
     }
   }
@@ -262,6 +307,9 @@ Margin DecideConvex(const PlacedPart& p, const PlacedPart& q, const SceneRules& 
     }
     if (margin.verdict != Verdict::kUndecided) {
       ++counters->by_guess;
+      if (margin.verdict == Verdict::kSeparate && rules.margins && margin.value < enough) {
+        ImproveInTurn(p, q, state, &margin, counters);
+      }
       return margin;
     }
   }

@@ -27,6 +27,7 @@ constexpr std::size_t kLookGrain = 32;
 
 // A margin is worth effort up to so many of the last step's motions: measured, README.md.
 constexpr double kEnoughMotions = 16.0;
+constexpr double kFastOfRadii = 0.25;
 // Of a mesh pair up to this part of the smaller ball, since finding it opens boxes only.
 constexpr double kEnoughOfRadius = 0.25;
 
@@ -84,6 +85,7 @@ void Scene::Data::FindActive(SceneCounters* counters) {
 
 // Memory for pairs with a mesh, made before threads share the work.
 void Scene::Data::MakeMeshStates() {
+  if (!has_meshes) return;
   for (const int pair : active) {
     PairState& state = pairs.state(pair);
     if (state.mesh >= 0 || !state.wants_verdict) continue;
@@ -113,16 +115,17 @@ void Scene::Data::LookAt(int k, SceneCounters* counters) {
   }
   const internal::PlacedPart placed_p = Placed(p), placed_q = Placed(q);
   const double motion = parts[p].step_motion + parts[q].step_motion;
+  const double radius_p = placed_p.part->outer_radius(), radius_q = placed_q.part->outer_radius();
+  // No margin lasts where parts move by their own size.
+  const double enough =
+      motion < kFastOfRadii * (radius_p + radius_q) ? kEnoughMotions * motion : 0.0;
   Margin margin;
   if (state.mesh >= 0) {
-    const double enough = std::max(
-        kEnoughMotions * motion,
-        kEnoughOfRadius * std::min(parts[p].part->outer_radius(), parts[q].part->outer_radius()));
+    const double worth = std::max(enough, kEnoughOfRadius * std::min(radius_p, radius_q));
     margin =
-        internal::DecideMesh(placed_p, placed_q, rules, enough, &mesh_states[state.mesh], counters);
+        internal::DecideMesh(placed_p, placed_q, rules, worth, &mesh_states[state.mesh], counters);
   } else {
-    margin = internal::DecideConvex(placed_p, placed_q, rules, kEnoughMotions * motion, &state,
-                                    counters);
+    margin = internal::DecideConvex(placed_p, placed_q, rules, enough, &state, counters);
     if (!rules.verdict_alone && margin.verdict == Verdict::kOverlap) {
       ++counters->depths;
       const auto pose = RelativePose::FromWorld(*placed_p.pose, *placed_q.pose);

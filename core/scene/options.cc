@@ -57,6 +57,7 @@ void SceneCounters::Add(const SceneCounters& other) {
   by_box += other.by_box;
   by_balls += other.by_balls;
   by_guess += other.by_guess;
+  improved += other.improved;
   queries += other.queries;
   exact_queries += other.exact_queries;
   meshes_apart += other.meshes_apart;

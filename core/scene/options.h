@@ -87,6 +87,7 @@ struct SceneCounters {
   long by_box = 0;         // decided: fat boxes are apart
   long by_balls = 0;       // decided: balls are apart, or in each other
   long by_guess = 0;       // decided: the last direction or simplex still proves it
+  long improved = 0;       // asked of Distance for the sake of a longer margin
   long queries = 0;        // asked of Collide or Membership
   long exact_queries = 0;  // of them those that big numbers had to finish
   long meshes_apart = 0;   // decided: by the trees, no mesh placed

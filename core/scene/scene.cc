@@ -140,6 +140,7 @@ StatusOr<BodyHandle> Scene::Add(const SceneShape& shape, const WorldPose& pose,
       d.free_part = d.parts[part].next;
     }
     const ScenePart& source = shape.part(index);
+    d.has_meshes |= !source.is_convex();
     d.parts[part] = {
         &source, pose.rotation * source.middle(), static_cast<int>(slot), index, body.first_part,
         0.0};

@@ -143,6 +143,7 @@ struct Scene::Data {
   std::vector<internal::PartData> parts;
   int free_part = internal::kNoPart;
   int part_count = 0;
+  bool has_meshes = false;  // or had
   // Pairs of parts of one body, which are no pairs.
   long pairs_within = 0;
 

@@ -7,6 +7,7 @@ figure10.svg               time in each stage of the published search against th
 error-verdicts.svg         time against wrong verdicts, a panel for each size of the gap
 error-gaps.svg             share of wrong verdicts against the size of the gap
 error-values.svg           time against the relative error of exit travel, distance and depth
+scene.svg                  time a step against the number of bodies (`touchstone bench scene --svg`)
 """
 import collections
 import csv
@@ -279,6 +280,38 @@ def error_values(directory):
     save(figure, directory, "error-values.svg")
 
 
+def scene(directory):
+    rows = [row for row in read(directory, "scene.csv") if " without " not in row["engine"]]
+    if not rows:
+        return
+    motions = list(dict.fromkeys(row["motion"] for row in rows))
+    figure, axes = plt.subplots(1, len(motions), figsize=(10, 4.0), squeeze=False, sharey=True)
+    colours = {"touchstone": "#d62728", "touchstone threads": "#ff9896", "fcl": "#9467bd",
+               "bullet-f64": "#7f7f7f"}
+    handles = {}
+    for axis, motion in zip(axes.flat, motions):
+        curves = collections.defaultdict(list)
+        for row in rows:
+            if row["motion"] == motion:
+                curves[row["engine"]].append((int(row["bodies"]),
+                                              float(row["median_ms_per_step"])))
+        for engine, points in curves.items():
+            points.sort()
+            (handles[engine],) = axis.plot(*zip(*points), "-o", color=colours.get(engine, "black"),
+                                           markersize=3)
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.grid(True, which="major", color="#dddddd", linewidth=0.5)
+        axis.set_title(motion, fontsize=10)
+        axis.set_xlabel("bodies", fontsize=8)
+        axis.tick_params(labelsize=8)
+    axes[0, 0].set_ylabel("ms a step", fontsize=8)
+    figure.suptitle("Steps of scenes of hulls of 100 vertices at constant density", fontsize=11)
+    figure.tight_layout(rect=(0, 0.1, 1, 1))
+    legend_below(figure, handles.values(), handles.keys(), 4)
+    save(figure, directory, "scene.svg")
+
+
 def main():
     if len(sys.argv) != 2 or not os.path.isdir(sys.argv[1]):
         sys.exit(__doc__)
@@ -293,6 +326,7 @@ def main():
     error_verdicts(directory)
     error_gaps(directory)
     error_values(directory)
+    scene(directory)
 
 
 if __name__ == "__main__":

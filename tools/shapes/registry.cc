@@ -59,6 +59,7 @@ const std::vector<Entry>& Entries() {
          const int sides = Steps(n, 1.4);
          return Fish(std::max(8, n / (2 * sides) - 1), sides);
        }},
+      {"gear", 320, [](int n) { return Gear(std::max(6, n / 16)); }},
       {"star", 20, [](int n) { return Star(std::max(3, n / 4)); }},
       {"dimpled", 0, [](int n) { return Dimpled(n == 0 ? 6 : std::max(3, (n - 14) / 2)); }},
       {"spiked", 0, [](int n) { return Spiked(n == 0 ? 6 : std::max(3, (n - 14) / 2)); }}};

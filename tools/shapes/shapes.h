@@ -47,6 +47,10 @@ Shape Cup(int sides);
 Shape Spoon(int stations, int sides);
 Shape Fish(int stations, int sides);
 
+// gear.cc: a spur gear about the z axis, its pitch radius a tenth of its number of teeth; a gap
+// between two teeth lies on the x axis. 16 * teeth faces.
+Shape Gear(int teeth);
+
 // star.cc: a star of `points` points with an apex above and one below: 4 * points faces.
 Shape Star(int points);
 

@@ -63,6 +63,7 @@ void AddBench(CLI::App& app, int& exit_code) {
   AddBenchConvex(*command, exit_code);
   AddBenchFigures(*command, exit_code);
   AddBenchMinkowski(*command, exit_code);
+  AddBenchScene(*command, exit_code);
   AddBenchSupport(*command, exit_code);
 }
 

@@ -26,6 +26,7 @@ void ShowProgress(double fraction);
 void AddBenchConvex(CLI::App& bench, int& exit_code);
 void AddBenchFigures(CLI::App& bench, int& exit_code);
 void AddBenchMinkowski(CLI::App& bench, int& exit_code);
+void AddBenchScene(CLI::App& bench, int& exit_code);
 void AddBenchSupport(CLI::App& bench, int& exit_code);
 
 }  // namespace touchstone

@@ -29,6 +29,7 @@ void AddEngines(CLI::App& app, int& exit_code);
 void AddFuzz(CLI::App& app, int& exit_code);
 void AddMembership(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
+void AddScene(CLI::App& app, int& exit_code);
 void AddSuites(CLI::App& app, int& exit_code);
 void AddVerify(CLI::App& app, int& exit_code);
 
