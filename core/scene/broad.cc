@@ -179,6 +179,7 @@ void Scene::Data::Wire(int pair) {
     kept.distance_limit = -kInfinity;
     kept.distance_found.reset();
     kept.depth_found.reset();
+    kept.mesh_depth_found.reset();
     for (auto& found : kept.travels_found) found.reset();
   }
   pairs.limit(pair) = -kInfinity;

@@ -13,15 +13,20 @@ namespace {
 // world, as one of the world.
 constexpr double kToWorld = 1.0 - 1e-5;
 
-MembershipResult AskMembership(const PlacedPart& p, const PlacedPart& q, const RelativePose& pose,
-                               bool warm, MeshPairState* state, SceneCounters* counters) {
-  ++counters->queries;
-  ++counters->meshes_placed;
+void PlaceAt(const PlacedPart& p, const PlacedPart& q, const RelativePose& pose,
+             MeshPairState* state) {
   if (state->pair) {
     state->pair->Place(pose);
   } else {
     state->pair.emplace(p.part->mesh(), q.part->mesh(), pose);
   }
+}
+
+MembershipResult AskMembership(const PlacedPart& p, const PlacedPart& q, const RelativePose& pose,
+                               bool warm, MeshPairState* state, SceneCounters* counters) {
+  ++counters->queries;
+  ++counters->meshes_placed;
+  PlaceAt(p, q, pose, state);
   if (!warm) state->cache.witness = {-1, -1};
   const MembershipResult result =
       Membership(*state->pair, Eigen::Vector3d(Eigen::Vector3d::Zero()), {}, &state->cache);
@@ -30,6 +35,13 @@ MembershipResult AskMembership(const PlacedPart& p, const PlacedPart& q, const R
 }
 
 }  // namespace
+
+const MeshPair& PlaceMeshes(const PlacedPart& p, const PlacedPart& q, MeshPairState* state) {
+  const auto pose = RelativePose::FromWorld(*p.pose, *q.pose);
+  assert(pose.ok());  // kMaxWorldTranslation
+  PlaceAt(p, q, *pose, state);
+  return *state->pair;
+}
 
 std::size_t MeshPairState::bytes() const {
   std::size_t total = sizeof *this + stack.capacity() * sizeof stack[0];

@@ -28,6 +28,9 @@ struct MeshPairState {
 Margin DecideMesh(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules, double enough,
                   MeshPairState* state, SceneCounters* counters);
 
+// The pair with both meshes placed where the parts are.
+const MeshPair& PlaceMeshes(const PlacedPart& p, const PlacedPart& q, MeshPairState* state);
+
 }  // namespace touchstone::internal
 
 #endif  // TOUCHSTONE_CORE_SCENE_MESH_PAIR_INTERNAL_H_

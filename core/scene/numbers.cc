@@ -31,8 +31,16 @@ void Scene::Data::FindNumbersOf(PairNumbers* wanted, SceneCounters* counters) {
     return;
   }
   wanted->is_fresh = false;
-  if (!parts[p].part->is_convex() || !parts[q].part->is_convex()) return;
   const internal::PlacedPart placed_p = Placed(p), placed_q = Placed(q);
+  wanted->mesh_depth_found.reset();
+  if (!placed_p.part->is_convex() || !placed_q.part->is_convex()) {
+    const internal::PairState& state = pairs.state(pairs.Find(p, q));
+    if (wanted->depth && state.verdict == Verdict::kOverlap) {
+      internal::FindMeshDepth(placed_p, placed_q, rules, &mesh_states[state.mesh], wanted,
+                              counters);
+    }
+    return;
+  }
   if (wanted->margin) {
     if (travel[p] + travel[q] < wanted->distance_limit) {
       ++counters->numbers_kept;
@@ -69,7 +77,7 @@ void Scene::Data::ListNumbersOf(const PairNumbers& found) {
   const PartData &p = parts[found.p], &q = parts[found.q];
   const BodyPair both{HandleOf(static_cast<std::uint32_t>(p.body)),
                       HandleOf(static_cast<std::uint32_t>(q.body))};
-  // Of meshes no numbers yet; said where the bodies meet, which every scene finds alike.
+  // Of meshes depth alone; said where the bodies meet, which every scene finds alike.
   const bool is_convex = p.part->is_convex() && q.part->is_convex();
   const bool meets =
       !is_convex && pairs.state(pairs.Find(found.p, found.q)).verdict != Verdict::kSeparate;
@@ -78,9 +86,11 @@ void Scene::Data::ListNumbersOf(const PairNumbers& found) {
     distances.push_back(
         {both, p.index, q.index, status, found.distance_found.value_or(DistanceResult{})});
   }
-  if (found.depth_found || (meets && found.depth)) {
-    depths.push_back(
-        {both, p.index, q.index, status, found.depth_found.value_or(PenetrationResult{})});
+  if (found.depth_found) {
+    depths.push_back({both, p.index, q.index, status, *found.depth_found});
+  }
+  if (found.mesh_depth_found) {
+    mesh_depths.push_back({both, p.index, q.index, NumberStatus::kFound, *found.mesh_depth_found});
   }
   for (std::size_t k = 0; k < found.travels.size(); ++k) {
     if (found.travels_found[k] || (meets && found.travels[k])) {
@@ -93,6 +103,7 @@ void Scene::Data::ListNumbersOf(const PairNumbers& found) {
 void Scene::Data::ListNumbers() {
   distances.clear();
   depths.clear();
+  mesh_depths.clear();
   travels.clear();
   listed.clear();
   for (int i = 0; i < numbers.size(); ++i) {

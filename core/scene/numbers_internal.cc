@@ -50,6 +50,16 @@ void FindDepth(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules
                                           &numbers->penetration_cache);
 }
 
+void FindMeshDepth(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules,
+                   MeshPairState* meshes, PairNumbers* numbers, SceneCounters* counters) {
+  ++counters->depths;
+  if (!numbers->mesh_depth_cache) numbers->mesh_depth_cache.emplace();
+  if (!rules.guesses) numbers->mesh_depth_cache->Clear();
+  numbers->mesh_depth_found =
+      MeshPenetrationDepth(PlaceMeshes(p, q, meshes), p.part->contact_body(),
+                           q.part->contact_body(), {}, &*numbers->mesh_depth_cache);
+}
+
 void FindTravels(const PlacedPart& p, const PlacedPart& q, PairNumbers* numbers,
                  SceneCounters* counters) {
   const RelativePose pose = PoseOf(p, q);

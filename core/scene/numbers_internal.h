@@ -8,10 +8,12 @@
 #include <cstddef>
 #include <optional>
 
+#include "touchstone/core/cpd/mesh_penetration_depth.h"
 #include "touchstone/core/proximity/directional_distance.h"
 #include "touchstone/core/proximity/distance.h"
 #include "touchstone/core/proximity/penetration_depth.h"
 #include "touchstone/core/scene/convex_pair_internal.h"
+#include "touchstone/core/scene/mesh_pair_internal.h"
 
 namespace touchstone::internal {
 
@@ -31,18 +33,20 @@ struct PairNumbers {
 
   DistanceCache distance_cache;
   PenetrationCache penetration_cache;
+  std::optional<MeshDepthCache> mesh_depth_cache;  // made when first needed
   // The distance stays above the margin while the parts' travels add up to less than this.
   double distance_limit;
   bool is_fresh = true;  // nothing was computed yet
 
   std::optional<DistanceResult> distance_found;  // at most the margin
   std::optional<PenetrationResult> depth_found;
+  std::optional<MeshDepthResult> mesh_depth_found;
   std::array<std::optional<DirectionalResult>, 3> travels_found;
 
   bool any() const { return margin || depth || travels[0] || travels[1] || travels[2]; }
 };
 
-// Each fills what was found, or empties it. Requires convex parts.
+// Each fills what was found, or empties it. Requires convex parts but where it says otherwise.
 //
 // Whether the distance is at most the margin is decided in the same way whatever the cache holds:
 // claimed errors are below 1e-12 of the pair's size, so that where a warm answer is within 1e-11 of
@@ -53,6 +57,9 @@ double FindDistance(const PlacedPart& p, const PlacedPart& q, const SceneRules& 
                     PairNumbers* numbers, SceneCounters* counters);
 void FindDepth(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules,
                PairNumbers* numbers, SceneCounters* counters);
+// Of two parts of which one is a mesh at least.
+void FindMeshDepth(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules,
+                   MeshPairState* meshes, PairNumbers* numbers, SceneCounters* counters);
 void FindTravels(const PlacedPart& p, const PlacedPart& q, PairNumbers* numbers,
                  SceneCounters* counters);
 

@@ -35,10 +35,6 @@ std::string_view ToString(NumberStatus value) {
       return "found";
     case NumberStatus::kNeedsConvex:
       return "needs_convex";
-    case NumberStatus::kNeedsMeshes:
-      return "needs_meshes";
-    case NumberStatus::kFailed:
-      return "failed";
   }
   return "?";
 }

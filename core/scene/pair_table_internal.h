@@ -13,7 +13,7 @@
 
 namespace touchstone::internal {
 
-// What is read of a pair when it is looked at: 96 bytes. The guesses prove nothing by themselves.
+// What is read of a pair when it is looked at: 88 bytes. The guesses prove nothing by themselves.
 struct PairState {
   // The direction that separated last, from P to Q in the world's frame, with the corners that
   // reach furthest.
@@ -34,6 +34,8 @@ struct PairState {
   bool in_contact = false;    // they have told that it began, and not that it ended
   std::uint8_t patience = 0;  // looks to wait before a better direction is tried again
 };
+
+static_assert(sizeof(PairState) == 88);
 
 // The pairs of parts that are candidates, in arrays, found by their two parts. The order of the
 // arrays depends on history, nothing that leaves the scene does. Steady state: no allocation.

@@ -313,7 +313,7 @@ SceneStep Scene::Step() {
   counters.pairs_possible =
       static_cast<long>(d.part_count) * (d.part_count - 1) / 2 - d.pairs_within;
   counters.pairs = d.pairs.size();
-  return {d.contacts.events(), d.distances, d.depths, d.travels, counters};
+  return {d.contacts.events(), d.distances, d.depths, d.mesh_depths, d.travels, counters};
 }
 
 bool Scene::Has(BodyHandle body) const { return data_->Find(body) != nullptr; }
@@ -356,6 +356,7 @@ Scene::Memory Scene::memory() const {
   memory.numbers = static_cast<std::size_t>(d.numbers.size()) * sizeof(internal::PairNumbers) +
                    d.distances.capacity() * sizeof d.distances[0] +
                    d.depths.capacity() * sizeof d.depths[0] +
+                   d.mesh_depths.capacity() * sizeof d.mesh_depths[0] +
                    d.travels.capacity() * sizeof d.travels[0];
   return memory;
 }

@@ -13,6 +13,7 @@
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/base/status.h"
 #include "touchstone/core/base/verdict.h"
+#include "touchstone/core/cpd/mesh_penetration_depth.h"
 #include "touchstone/core/proximity/result.h"
 #include "touchstone/core/scene/options.h"
 #include "touchstone/core/scene/shape.h"
@@ -51,8 +52,6 @@ struct SceneEvent {
 enum class NumberStatus {
   kFound,
   kNeedsConvex,  // the quantity is computed for convex parts only
-  kNeedsMeshes,  // of closed meshes only
-  kFailed,       // the query itself gave up
 };
 std::string_view ToString(NumberStatus);
 
@@ -76,6 +75,8 @@ struct SceneStep {
   // Of parts that overlap, each pair of parts by itself: how far to move one body so that these two
   // parts just touch.
   std::span<const SceneNumber<PenetrationResult>> depths;
+  // The same where one part is a mesh at least.
+  std::span<const SceneNumber<MeshDepthResult>> mesh_depths;
   // Of parts whose travel begins within the reach. Q travels along the direction; where body a was
   // subscribed and travels, Q travels against it.
   std::span<const SceneNumber<DirectionalResult>> travels;

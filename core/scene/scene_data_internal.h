@@ -117,6 +117,7 @@ struct Scene::Data {
   bool IsDue(int pair) const;
   void MakeMeshStates();
   void LookAt(int k, SceneCounters* counters);
+  void Fetch(std::size_t k, std::size_t end) const;
   void TellChanges();
 
   // numbers.cc
@@ -168,6 +169,7 @@ struct Scene::Data {
   std::vector<int> listed;  // numbers in order
   std::vector<SceneNumber<DistanceResult>> distances;
   std::vector<SceneNumber<PenetrationResult>> depths;
+  std::vector<SceneNumber<MeshDepthResult>> mesh_depths;
   std::vector<SceneNumber<DirectionalResult>> travels;
 };
 

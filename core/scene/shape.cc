@@ -91,6 +91,11 @@ const ScenePart::Surface& ScenePart::surface() const {
 
 const TriangleMesh& ScenePart::mesh() const { return surface().mesh; }
 
+const ContactBody& ScenePart::contact_body() const {
+  std::call_once(contact_body_made_, [this] { contact_body_.emplace(mesh()); });
+  return *contact_body_;
+}
+
 std::span<const std::array<int, 6>> ScenePart::extreme_vertices() const {
   return surface().extreme_vertices;
 }

@@ -12,6 +12,7 @@
 
 #include "touchstone/core/base/status.h"
 #include "touchstone/core/convex/convex_polyhedron.h"
+#include "touchstone/core/cpd/contact_body.h"
 #include "touchstone/core/mesh/box_tree.h"
 #include "touchstone/core/mesh/triangle_mesh.h"
 
@@ -32,6 +33,9 @@ class ScenePart {
   // The mesh; of a convex body its surface cut into triangles, made when first asked for. Any
   // number of threads may ask.
   const TriangleMesh& mesh() const;
+
+  // What mesh() contributes to depths, made when first asked for; the same.
+  const ContactBody& contact_body() const;
 
   // A point, inside where the part is convex, with a ball around it that holds the part and one
   // that the part holds (radius zero for meshes).
@@ -60,6 +64,8 @@ class ScenePart {
   Box3 box_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   mutable std::once_flag surface_made_;
   mutable std::optional<Surface> surface_;
+  mutable std::once_flag contact_body_made_;
+  mutable std::optional<ContactBody> contact_body_;
 };
 
 // What a body of a scene is: a convex body, the union of several (a compound), or a closed mesh.

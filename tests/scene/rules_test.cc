@@ -85,6 +85,7 @@ class Worlds {
                         [](const PenetrationResult& r) { return r.depth; });
       ExpectSameNumbers(first.travels, other.travels,
                         [](const DirectionalResult& r) { return r.enter.travel; });
+      ExpectSameDepthsOfMeshes(first.mesh_depths, other.mesh_depths);
       totals_.resize(scenes_.size());
       totals_[i].Add(other.counters);
     }
@@ -117,6 +118,16 @@ class Worlds {
       ASSERT_EQ(first[k].status, other[k].status);
       const BoundedValue x = value_of(first[k].result), y = value_of(other[k].result);
       ASSERT_LE(std::abs(x.value - y.value), x.error + y.error);
+    }
+  }
+
+  static void ExpectSameDepthsOfMeshes(std::span<const SceneNumber<MeshDepthResult>> first,
+                                       std::span<const SceneNumber<MeshDepthResult>> other) {
+    ASSERT_EQ(first.size(), other.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      ASSERT_EQ(first[k].bodies, other[k].bodies);
+      ASSERT_LE(first[k].result.lower_bound, other[k].result.upper_bound);
+      ASSERT_LE(other[k].result.lower_bound, first[k].result.upper_bound);
     }
   }
 
@@ -305,6 +316,35 @@ TEST(Rules, NumbersStayWithinTheirBounds) {
   EXPECT_GT(distances, 500u);
   EXPECT_GT(depths, 100u);
   EXPECT_GT(travels, 250u);
+}
+
+TEST(Rules, DepthsOfMeshes) {
+  std::printf("seed 8\n");
+  Random random(8);
+  const std::vector<NamedOptions> all = AllOptions();
+  Worlds worlds({all[0], all[1], all[2]});
+  const std::vector<SceneShape> shapes = {MeshShape("torus", 120, 0.5), MeshShape("u", 0, 0.5),
+                                          BoxShape({0.5, 0.5, 0.5})};
+  Subscriptions depth;
+  depth.depth = true;
+  std::vector<BodyHandle> bodies;
+  for (int i = 0; i < 6; ++i) {
+    const WorldPose pose = RandomPose(random, 0.6);
+    bodies.push_back(
+        worlds.ForAll([&](Scene& scene) { return *scene.Add(shapes[i % 3], pose, depth); }));
+  }
+  std::size_t depths = 0;
+  for (int step = 0; step < 40; ++step) {
+    for (const BodyHandle body : bodies) {
+      if (random.Int(0, 2) == 0) continue;
+      const WorldPose pose = Nudged(random, worlds.scene(0).pose(body), 0.02, 0.02);
+      worlds.ForAll([&](Scene& scene) { return scene.Move(body, pose).ok(); });
+    }
+    const SceneStep found = worlds.Step();
+    if (HasFatalFailure()) FAIL() << "step " << step;
+    depths += found.mesh_depths.size();
+  }
+  EXPECT_GT(depths, 40u);
 }
 
 }  // namespace

@@ -91,6 +91,7 @@ Json Gears() {
     scene["bodies"].push_back({{"name", "gear " + std::to_string(i)},
                                {"shape", name},
                                {"position", List(x, 0, 0)},
+                               {"subscriptions", {{"depth", i == 4}}},
                                {"turn", List(0, 0, phase)},
                                {"motion", {{"spin", List(0, 0, speed)}}}});
     sense = -sense;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "touchstone/core/cd_dual/cd_dual.h"
+#include "touchstone/core/cpd/mesh_penetration_depth.h"
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/proximity/directional_distance.h"
 #include "touchstone/core/proximity/distance.h"
@@ -159,6 +160,28 @@ void SceneChecker::CheckEvents(const std::map<Slots, Verdict>& now, const SceneS
   }
 }
 
+// The depth of two parts of which one is a mesh, computed anew without a cache.
+void SceneChecker::CheckMeshDepth(int a, int b, int i, int j, const RelativePose& pose,
+                                  const SceneStep& found) {
+  const ScenePart &p = spec_.bodies[a].shape.part(i), &q = spec_.bodies[b].shape.part(j);
+  const auto told =
+      std::find_if(found.mesh_depths.begin(), found.mesh_depths.end(), [&](const auto& number) {
+        return KeyOf(number) == PartKey{a, b, i, j};
+      });
+  const MeshPair pair(p.mesh(), q.mesh(), pose);
+  const std::string of = "depth of bodies " + std::to_string(a) + ' ' + std::to_string(b);
+  if (Membership(pair, Vector3d(Vector3d::Zero())).verdict != Verdict::kOverlap) {
+    if (told != found.mesh_depths.end()) Mismatch(of + " is too many");
+    return;
+  }
+  if (told == found.mesh_depths.end()) return Mismatch(of + " is missing");
+  const MeshDepthResult depth = MeshPenetrationDepth(pair, p.contact_body(), q.contact_body());
+  if (!(told->result.lower_bound <= depth.upper_bound &&
+        depth.lower_bound <= told->result.upper_bound)) {
+    Mismatch(of + " is beyond its bounds");
+  }
+}
+
 void SceneChecker::CheckNumbers(const std::vector<WorldPose>& poses, const SceneStep& found) {
   const auto distances =
       Listed(found.distances, [](const DistanceResult& r) { return r.distance; });
@@ -182,7 +205,10 @@ void SceneChecker::CheckNumbers(const std::vector<WorldPose>& poses, const Scene
       const SceneShape &p = spec_.bodies[a].shape, &q = spec_.bodies[b].shape;
       for (int i = 0; i < p.part_count(); ++i) {
         for (int j = 0; j < q.part_count(); ++j) {
-          if (!AreConvex(p.part(i), q.part(j))) continue;
+          if (!AreConvex(p.part(i), q.part(j))) {
+            if (depth) CheckMeshDepth(a, b, i, j, pose, found);
+            continue;
+          }
           const ConvexPolyhedron &body_p = p.part(i).convex(), &body_q = q.part(j).convex();
           const PartKey key{a, b, i, j};
           if (distance) {

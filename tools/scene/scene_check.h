@@ -40,6 +40,7 @@ class SceneChecker {
   Verdict AskPair(int a, int b, const RelativePose& pose) const;
   void CheckEvents(const std::map<Slots, Verdict>& now, const SceneStep& found);
   void CheckNumbers(const std::vector<WorldPose>& poses, const SceneStep& found);
+  void CheckMeshDepth(int a, int b, int i, int j, const RelativePose& pose, const SceneStep& found);
   void JudgePair(int a, int b, const RelativePose& pose, Verdict said);
   void Mismatch(const std::string& what);
   void Finding(const std::string& what);

@@ -123,8 +123,8 @@ void WriteCsv(std::ostream& out, int step, double ms, const SceneStep& found) {
                            c.meshes_placed, tally.begin, tally.persist, tally.end}) {
     out << ',' << count;
   }
-  out << ',' << found.distances.size() << ',' << found.depths.size() << ',' << found.travels.size()
-      << '\n';
+  out << ',' << found.distances.size() << ',' << found.depths.size() + found.mesh_depths.size()
+      << ',' << found.travels.size() << '\n';
 }
 
 Json PosesJson(const std::vector<WorldPose>& poses) {
