@@ -146,10 +146,10 @@ Json RobotArm() {
     scene["bodies"].push_back(
         {{"name", "pillar " + std::to_string(i)},
          {"shape", "pillar"},
-         {"position", List(2.6 * std::cos(angle), 2.6 * std::sin(angle), 1.5 + 0.5 * (i % 3))}});
+         {"position", List(1.9 * std::cos(angle), 1.9 * std::sin(angle), 1.5 + 0.5 * (i % 3))}});
   }
   scene["bodies"].push_back(
-      {{"name", "shelf"}, {"shape", "shelf"}, {"position", List(0.5, 3.5, 3.0)}});
+      {{"name", "shelf"}, {"shape", "shelf"}, {"position", List(0.5, 2.6, 3.0)}});
   return scene;
 }
 

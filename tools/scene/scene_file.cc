@@ -360,6 +360,8 @@ Json ReadSceneJson(const std::string& path) {
     return Json::parse(in);
   } catch (const Json::parse_error& error) {
     throw BadInput{path + ": byte " + std::to_string(error.byte) + ": is no JSON"};
+  } catch (const Json::exception& error) {
+    throw BadInput{path + ": " + error.what()};
   }
 }
 
