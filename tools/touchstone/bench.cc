@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "touchstone/tools/engines/registry.h"
+#include "touchstone/tools/touchstone/cpd.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 
 namespace touchstone {
@@ -61,6 +62,7 @@ void AddBench(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bench", "Time engines side by side");
   command->require_subcommand(1);
   AddBenchConvex(*command, exit_code);
+  AddBenchCpd(*command, exit_code);
   AddBenchFigures(*command, exit_code);
   AddBenchMinkowski(*command, exit_code);
   AddBenchScene(*command, exit_code);

@@ -4,6 +4,7 @@
 #include <exception>
 #include <iostream>
 
+#include "touchstone/tools/touchstone/cpd.h"
 #include "touchstone/tools/touchstone/minkowski_local.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 #include "touchstone/tools/words.h"
@@ -29,6 +30,7 @@ int Run(int argc, char** argv) {
   int exit_code = kFine;
   AddCollide(app, exit_code);
   AddDistance(app, exit_code);
+  AddCpd(app, exit_code);
   AddDepth(app, exit_code);
   AddDirection(app, exit_code);
   AddVerify(app, exit_code);

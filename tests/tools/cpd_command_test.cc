@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "touchstone/tests/tools/program.h"
+
+namespace touchstone {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(CpdCommand, PairIsJudged) {
+  const ProgramRun run = RunProgram(
+      "cpd shape:torus:200 shape:star --pose 1 0 0 1.8 0 0.8 -0.6 0.1 0 0.6 0.8 0 --judge --json");
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_EQ(run.json()["depth"]["status"], "certain");
+  EXPECT_LE(run.json()["depth"]["lower"], run.json()["depth"]["upper"]);
+  EXPECT_GE(run.json()["cpd"]["magnitude"].get<double>(),
+            run.json()["depth"]["lower"].get<double>() - 1e-9);
+  EXPECT_GE(run.json()["contact_space"]["magnitude"].get<double>(),
+            run.json()["depth"]["lower"].get<double>() - 1e-9);
+  EXPECT_THAT(run.json()["judge"]["findings"], IsEmpty());
+}
+
+TEST(CpdCommand, SceneWritesCsvAndSvg) {
+  const TemporaryFolder folder("cpd");
+  const ProgramRun run =
+      RunProgram("cpd --scene fish-torus --frames 4 --csv " + folder.path("out.csv") + " --svg " +
+                 folder.path("out.svg") + " --json");
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_EQ(run.json()["frames"], 4);
+  const std::string csv = folder.Read("out.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
+  EXPECT_THAT(csv, HasSubstr("cpd_x"));
+  EXPECT_THAT(folder.Read("out.svg"), HasSubstr("</svg>"));
+}
+
+TEST(CpdCommand, BenchRows) {
+  const ProgramRun run = RunProgram("bench cpd --quick --frames 3 --scene fish-torus --json");
+  ASSERT_LE(run.exit_code, 1) << run.out << run.err;  // 1: an event was counted
+  ASSERT_EQ(run.json().size(), 8u);
+  for (const auto& row : run.json()) {
+    for (const char* key :
+         {"scene", "method", "median_ms", "p99_ms", "frames", "events", "jumps", "findings"}) {
+      EXPECT_TRUE(row.contains(key)) << key;
+    }
+  }
+}
+
+TEST(CpdCommand, BadInputIsNamed) {
+  const ProgramRun run = RunProgram("cpd --scene nowhere");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("nowhere"));
+  EXPECT_EQ(RunProgram("cpd").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace touchstone

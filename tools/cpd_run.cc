@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/tools/cpd_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <ostream>
+
+#include "touchstone/exact/judge_cpd.h"
+#include "touchstone/tools/numbers.h"
+#include "touchstone/tools/table.h"
+
+namespace touchstone {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Eigen::Vector3d;
+
+double Since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+struct Times {
+  std::vector<double> ms;
+
+  double At(double part) const {
+    if (ms.empty()) return 0.0;
+    std::vector<double> sorted = ms;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+  }
+  CpdBenchRow Row(const std::string& scene, const std::string& method) const {
+    return {scene, method, At(0.5), At(0.99), static_cast<int>(ms.size()), 0, 0, 0};
+  }
+};
+
+void WriteDirection(const Vector3d& q, std::ostream& out) {
+  const Vector3d u = q.stableNormalized();
+  out << ',' << ShortDouble(q.norm());
+  for (int k = 0; k < 3; ++k) out << ',' << ShortDouble(u[k]);
+}
+
+Vector3d TranslationOf(const CpdFrame& frame, int method) {
+  return method == 0   ? frame.cpd.translation
+         : method == 1 ? frame.depth.translation
+                       : frame.contact_space.translation;
+}
+
+}  // namespace
+
+std::vector<CpdFrame> RunCpdScene(const PaperScene& scene, int frames) {
+  const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
+  const ContactBody body_a(a), body_b(b);
+  ContinuousPenetrationDepth cpd(a, b);
+  MeshPair pair(a, b, scene.PoseAt(0.0));
+  MeshDepthCache depth_cache;
+  ContactSpaceCache contact_cache;
+  std::vector<CpdFrame> out;
+  for (int i = 0; i < frames; ++i) {
+    CpdFrame frame;
+    frame.s = frames > 1 ? static_cast<double>(i) / (frames - 1) : 0.0;
+    const RelativePose pose = scene.PoseAt(frame.s);
+    pair.Place(pose);
+    frame.cpd = cpd.Update(pose);
+    frame.depth = MeshPenetrationDepth(pair, body_a, body_b, {}, &depth_cache);
+    frame.contact_space = ContactSpaceProjection(pair, {}, &contact_cache);
+    out.push_back(frame);
+  }
+  return out;
+}
+
+void WriteCpdCsv(const std::vector<CpdFrame>& frames, std::ostream& out) {
+  out << "s,status,branch";
+  for (const char* method : {"cpd", "depth", "contact_space"}) {
+    out << ',' << method << ',' << method << "_x," << method << "_y," << method << "_z";
+  }
+  out << '\n';
+  for (const CpdFrame& frame : frames) {
+    out << ShortDouble(frame.s) << ',' << ToString(frame.cpd.status) << ',' << frame.cpd.branch;
+    for (int method = 0; method < 3; ++method) WriteDirection(TranslationOf(frame, method), out);
+    out << '\n';
+  }
+}
+
+void WriteCpdSvg(const std::string& title, const std::vector<CpdFrame>& frames, std::ostream& out) {
+  constexpr double kWidth = 720.0, kHeight = 170.0, kLeft = 60.0, kTop = 40.0, kGap = 30.0;
+  constexpr const char* kColours[] = {"#c0392b", "#2c3e50", "#27ae60"};
+  constexpr const char* kNames[] = {"CPD", "global depth", "contact-space projection"};
+  constexpr const char* kPanels[] = {"magnitude", "direction x", "direction y", "direction z"};
+  double most = 1e-300;
+  for (const CpdFrame& frame : frames) {
+    for (int method = 0; method < 3; ++method) {
+      most = std::max(most, TranslationOf(frame, method).norm());
+    }
+  }
+  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << kLeft + kWidth + 20
+      << "\" height=\"" << kTop + 4 * (kHeight + kGap)
+      << "\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
+         "fill=\"white\"/>\n<text x=\""
+      << kLeft << "\" y=\"18\" font-size=\"14\">" << title << "</text>\n";
+  for (int method = 0; method < 3; ++method) {
+    out << "<text x=\"" << kLeft + 200 + 150 * method << "\" y=\"18\" fill=\"" << kColours[method]
+        << "\">" << kNames[method] << "</text>\n";
+  }
+  for (int panel = 0; panel < 4; ++panel) {
+    const double top = kTop + panel * (kHeight + kGap);
+    const double low = panel == 0 ? 0.0 : -1.0, high = panel == 0 ? 1.05 * most : 1.0;
+    out << "<rect x=\"" << kLeft << "\" y=\"" << top << "\" width=\"" << kWidth << "\" height=\""
+        << kHeight << "\" fill=\"none\" stroke=\"#999\"/>\n<text x=\"" << kLeft << "\" y=\""
+        << top - 5 << "\">" << kPanels[panel] << "</text>\n<text x=\"5\" y=\"" << top + 10 << "\">"
+        << Fixed(high, 2) << "</text>\n<text x=\"5\" y=\"" << top + kHeight << "\">"
+        << Fixed(low, 2) << "</text>\n";
+    for (int method = 2; method >= 0; --method) {
+      out << "<polyline fill=\"none\" stroke=\"" << kColours[method] << "\" points=\"";
+      for (const CpdFrame& frame : frames) {
+        const Vector3d q = TranslationOf(frame, method);
+        const double value = panel == 0 ? q.norm() : q.stableNormalized()[panel - 1];
+        out << kLeft + kWidth * frame.s << ','
+            << top + kHeight * (1.0 - (value - low) / (high - low)) << ' ';
+      }
+      out << "\"/>\n";
+    }
+  }
+  out << "</svg>\n";
+}
+
+bool IsSmallStep(const Vector3d& p, const Vector3d& q) {
+  if ((p - q).norm() > 1e-3 * kPaperSumRadius) return false;
+  if (p.isZero() || q.isZero()) return p.isZero() && q.isZero();
+  return p.normalized().dot(q.normalized()) >= 0.9998476951563913;  // cos 1°
+}
+
+bool HasJump(const std::function<Vector3d(double)>& at, double from, double to) {
+  Vector3d p = at(from), q = at(to);
+  for (int i = 0; i < kBisections && !IsSmallStep(p, q); ++i) {
+    const double middle = 0.5 * (from + to);
+    const Vector3d x = at(middle);
+    // On to the half with the larger change.
+    if ((x - p).norm() > (q - x).norm()) {
+      to = middle, q = x;
+    } else {
+      from = middle, p = x;
+    }
+  }
+  return !IsSmallStep(p, q);
+}
+
+bool HasCpdEvent(const PaperScene& scene, ContinuousPenetrationDepth* solver,
+                 const ContinuousDepthState& state, double from, double to) {
+  ContinuousDepthState at_from = state;
+  solver->set_state(at_from);
+  Vector3d p = state.translation, q = solver->Update(scene.PoseAt(to)).translation;
+  for (int i = 0; i < kBisections && !IsSmallStep(p, q); ++i) {
+    const double middle = 0.5 * (from + to);
+    solver->set_state(at_from);
+    const Vector3d x = solver->Update(scene.PoseAt(middle)).translation;
+    const auto at_middle = solver->state();
+    if (!at_middle || !IsSmallStep(p, x)) {
+      to = middle, q = x;
+      continue;
+    }
+    // Followed to the middle: is the rest of the step small from there?
+    from = middle, p = x, at_from = *at_middle;
+    q = solver->Update(scene.PoseAt(to)).translation;
+  }
+  return !IsSmallStep(p, q);
+}
+
+std::vector<std::string> JudgedMeshDepth(const TriangleMesh& a, const TriangleMesh& b,
+                                         const RelativePose& pose, const MeshDepthResult& result,
+                                         int samples) {
+  exact::DepthJudgeOptions options;
+  options.facet_samples = samples;
+  options.ball_samples = std::max(4, samples / 3);
+  return exact::JudgeMeshDepth(a, b, pose,
+                               {result.translation, result.lower_bound, result.upper_bound,
+                                result.is_exact || result.by_boundary},
+                               options);
+}
+
+std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOptions& options) {
+  const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
+  const ContactBody body_a(a), body_b(b);
+  MeshPair pair(a, b, scene.PoseAt(0.0));
+  // Coherent: a tenth of a degree a frame from a third of the motion on; a degree; and cold, all
+  // along it.
+  const double begin = 0.3, tenth = scene.AtTurn(0.1) - scene.AtTurn(0.0), degree = 10.0 * tenth;
+
+  ContinuousPenetrationDepth cpd(a, b);
+  Times mink, phong, total;
+  int without = 0, events = 0, cpd_findings = 0, bisected = 0;
+  const auto start = Clock::now();
+  const auto has_time = [&] { return Since(start) < 1e3 * options.seconds; };
+  std::vector<std::pair<double, ContinuousDepthState>> suspects;  // where a step begins
+  std::optional<ContinuousDepthState> before;
+  std::vector<double> ends;
+  for (int i = 0; i < options.frames && has_time(); ++i) {
+    const double s = begin + i * tenth;
+    const ContinuousDepthResult result = cpd.Update(scene.PoseAt(s));
+    if (i > 0) {  // the first is cold
+      mink.ms.push_back(result.minkowski_ms);
+      phong.ms.push_back(result.phong_ms);
+      total.ms.push_back(result.total_ms);
+    }
+    without += result.status != ContinuousDepthStatus::kFound;
+    cpd_findings += result.status == ContinuousDepthStatus::kFound && !(result.residual < 1e-10);
+    if (before && !IsSmallStep(before->translation, result.translation)) {
+      suspects.emplace_back(s - tenth, *before);
+      ends.push_back(s);
+    }
+    before = cpd.state();
+  }
+  for (std::size_t i = 0; i < suspects.size(); ++i) {
+    if (bisected >= options.bisected_steps || !has_time()) {
+      ++events;  // not looked into: counted
+      continue;
+    }
+    ++bisected;
+    events += HasCpdEvent(scene, &cpd, suspects[i].second, suspects[i].first, ends[i]);
+  }
+
+  MeshDepthCache cache;
+  const auto depth_at = [&](double s) {
+    pair.Place(scene.PoseAt(s));
+    return MeshPenetrationDepth(pair, body_a, body_b, {}, &cache);
+  };
+  const auto timed_depth = [&](double s, Times* times) {
+    pair.Place(scene.PoseAt(s));
+    const auto at = Clock::now();
+    const MeshDepthResult result = MeshPenetrationDepth(pair, body_a, body_b, {}, &cache);
+    times->ms.push_back(Since(at));
+    return result;
+  };
+  Times cold, coherent, coarse;
+  int depth_findings = 0, jumps = 0;
+  for (int i = 0; i < options.frames; ++i) {
+    cache.Clear();
+    const double s = (i + 0.5) / options.frames;
+    const MeshDepthResult result = timed_depth(s, &cold);
+    depth_findings += result.status != MeshDepthStatus::kCertain;
+    const int every = std::max(1, options.frames / std::max(1, options.judged_frames));
+    if (options.judged_frames > 0 && i % every == 0 && has_time()) {
+      depth_findings += static_cast<int>(JudgedMeshDepth(a, b, scene.PoseAt(s), result, 12).size());
+    }
+  }
+  Vector3d last = Vector3d::Zero();
+  for (int i = 0; i < options.frames; ++i) {
+    const double s = begin + i * tenth;
+    const Vector3d q = timed_depth(s, &coherent).translation;
+    if (i > 0 && !IsSmallStep(last, q)) {
+      jumps += HasJump([&](double x) { return depth_at(x).translation; }, s - tenth, s);
+    }
+    last = q;
+  }
+  for (int i = 0; i < options.frames; ++i) timed_depth(begin + std::fmod(i * degree, 0.7), &coarse);
+
+  ContactSpaceCache contact_cache;
+  Times contact_cold, contact_coherent;
+  int deeper = 0;
+  const auto timed_contact = [&](double s, Times* times) {
+    pair.Place(scene.PoseAt(s));
+    const auto at = Clock::now();
+    const ContactSpaceResult result = ContactSpaceProjection(pair, {}, &contact_cache);
+    times->ms.push_back(Since(at));
+    // Never shorter than the global depth, or that was wrong.
+    deeper += result.translation.norm() < depth_at(s).lower_bound * (1.0 - 1e-9);
+  };
+  for (int i = 0; i < options.frames; ++i) {
+    contact_cache.last.reset();
+    timed_contact((i + 0.5) / options.frames, &contact_cold);
+  }
+  for (int i = 0; i < options.frames; ++i) timed_contact(begin + i * tenth, &contact_coherent);
+
+  std::vector<CpdBenchRow> rows = {mink.Row(scene.name, "cpd-minkowski"),
+                                   phong.Row(scene.name, "cpd-phong"),
+                                   total.Row(scene.name, "cpd-total"),
+                                   cold.Row(scene.name, "depth-cold"),
+                                   coherent.Row(scene.name, "depth-coherent-0.1"),
+                                   coarse.Row(scene.name, "depth-coherent-1"),
+                                   contact_cold.Row(scene.name, "contact-space-cold"),
+                                   contact_coherent.Row(scene.name, "contact-space-coherent")};
+  rows[2].events = events;
+  rows[2].jumps = jumps + without;
+  rows[2].findings = cpd_findings + (events > jumps + without ? 1 : 0);
+  rows[3].findings = depth_findings;
+  rows[4].jumps = jumps;
+  rows[6].findings = deeper;
+  return rows;
+}
+
+}  // namespace touchstone

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// A pair of the paper's benchmarks along its motion, by each method: for `touchstone cpd --scene`
+// and `touchstone bench cpd`.
+#ifndef TOUCHSTONE_TOOLS_CPD_RUN_H_
+#define TOUCHSTONE_TOOLS_CPD_RUN_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "touchstone/core/cpd/contact_space_projection.h"
+#include "touchstone/core/cpd/continuous_penetration_depth.h"
+#include "touchstone/core/cpd/mesh_penetration_depth.h"
+#include "touchstone/tools/shapes/paper_scenes.h"
+
+namespace touchstone {
+
+// One moment of the motion, by all three methods, each coherent.
+struct CpdFrame {
+  double s;  // of PaperScene::PoseAt
+  ContinuousDepthResult cpd;
+  MeshDepthResult depth;
+  ContactSpaceResult contact_space;
+};
+
+// `frames` moments, s evenly from 0 to 1, both ends included.
+std::vector<CpdFrame> RunCpdScene(const PaperScene& scene, int frames);
+
+// Columns: s, then status (CPD), and for each method magnitude and direction.
+void WriteCpdCsv(const std::vector<CpdFrame>& frames, std::ostream& out);
+// The paper's Figure 11: magnitudes over the motion above, direction cosines below.
+void WriteCpdSvg(const std::string& title, const std::vector<CpdFrame>& frames, std::ostream& out);
+
+// A translation as a function of s that may jump. `at` is asked in any order; Events counts the
+// steps of an interval that keep a change of direction of a degree, or of position of 1e-3 of the
+// sum's radius, through all bisections.
+inline constexpr int kBisections = 30;
+bool IsSmallStep(const Eigen::Vector3d& p, const Eigen::Vector3d& q);
+bool HasJump(const std::function<Eigen::Vector3d(double)>& at, double from, double to);
+
+// Whether CPD jumps between two moments, followed from the state at the first.
+bool HasCpdEvent(const PaperScene& scene, ContinuousPenetrationDepth* solver,
+                 const ContinuousDepthState& state, double from, double to);
+
+struct CpdBenchRow {
+  std::string scene, method;
+  double median_ms = 0.0, p99_ms = 0.0;
+  int frames = 0, events = 0, jumps = 0, findings = 0;
+};
+
+struct CpdBenchOptions {
+  int frames = 200;         // a motion
+  int judged_frames = 10;   // of each scene, by the exact half
+  int bisected_steps = 20;  // of each scene and method, at most
+  double seconds = 1e9;     // for bisecting and judging, each scene
+};
+// Rows of one scene: mink, phong, total (Table 1's columns), the depth cold and coherent, and the
+// contact-space projection cold and coherent.
+std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOptions& options);
+
+// What the exact half finds wrong with a depth; empty when it stands.
+std::vector<std::string> JudgedMeshDepth(const TriangleMesh& a, const TriangleMesh& b,
+                                         const RelativePose& pose, const MeshDepthResult& result,
+                                         int samples);
+
+}  // namespace touchstone
+
+#endif  // TOUCHSTONE_TOOLS_CPD_RUN_H_

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/tools/touchstone/cpd.h"
+
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "touchstone/core/mesh/membership.h"
+#include "touchstone/tools/cpd_run.h"
+#include "touchstone/tools/mesh_arguments.h"
+#include "touchstone/tools/numbers.h"
+#include "touchstone/tools/result_json.h"
+#include "touchstone/tools/table.h"
+#include "touchstone/tools/touchstone/subcommands.h"
+
+namespace touchstone {
+namespace {
+
+struct Arguments {
+  std::string a, b, scene, csv, svg;
+  std::vector<std::string> pose;
+  int frames = kPaperFrames;
+  bool judge = false, json = false;
+};
+
+std::string Words(const Eigen::Vector3d& v) {
+  return ShortDouble(v[0]) + " " + ShortDouble(v[1]) + " " + ShortDouble(v[2]);
+}
+
+int RunPair(const Arguments& arguments) {
+  const TriangleMesh a = LoadMesh(arguments.a), b = LoadMesh(arguments.b);
+  const RelativePose pose = ParsePose(arguments.pose);
+  const ContactBody body_a(a), body_b(b);
+  const MeshPair pair(a, b, pose);
+  const auto begin = std::chrono::steady_clock::now();
+  const MeshDepthResult depth = MeshPenetrationDepth(pair, body_a, body_b);
+  const std::chrono::duration<double, std::milli> depth_time =
+      std::chrono::steady_clock::now() - begin;
+  ContinuousPenetrationDepth solver(a, b);
+  const ContinuousDepthResult cpd = solver.Update(pose);
+  const ContactSpaceResult contact = ContactSpaceProjection(pair);
+
+  std::vector<std::string> findings;
+  if (arguments.judge) {
+    findings = JudgedMeshDepth(a, b, pose, depth, 60);
+    if (cpd.status == ContinuousDepthStatus::kFound) {
+      if (!(cpd.residual < 1e-10)) findings.push_back("cpd: the residual is no rounding");
+      if (cpd.translation.norm() < depth.lower_bound * (1.0 - 1e-9)) {
+        findings.push_back("cpd: shorter than the depth");
+      }
+    }
+  }
+  if (arguments.json) {
+    Json json = {{"a", arguments.a},
+                 {"b", arguments.b},
+                 {"cpd",
+                  {{"status", ToString(cpd.status)},
+                   {"translation", ToJson(cpd.translation)},
+                   {"magnitude", cpd.translation.norm()},
+                   {"direction", ToJson(cpd.direction)},
+                   {"residual", cpd.residual},
+                   {"point_on_a", ToJson(cpd.point_on_a)},
+                   {"point_on_b", ToJson(cpd.point_on_b)},
+                   {"iterations", cpd.iterations},
+                   {"local_triangles", cpd.local_triangles},
+                   {"minkowski_ms", cpd.minkowski_ms},
+                   {"phong_ms", cpd.phong_ms},
+                   {"total_ms", cpd.total_ms}}},
+                 {"depth",
+                  {{"status", ToString(depth.status)},
+                   {"translation", ToJson(depth.translation)},
+                   {"lower", depth.lower_bound},
+                   {"upper", depth.upper_bound},
+                   {"kind", ToString(depth.kind)},
+                   {"pieces", depth.pieces},
+                   {"memberships", depth.memberships},
+                   {"ms", depth_time.count()}}},
+                 {"contact_space",
+                  {{"translation", ToJson(contact.translation)},
+                   {"magnitude", contact.translation.norm()},
+                   {"iterations", contact.iterations}}}};
+    if (arguments.judge) json["judge"] = {{"findings", findings}};
+    std::cout << json.dump(2) << '\n';
+  } else {
+    std::cout << "cpd              " << ToString(cpd.status) << ", "
+              << ShortDouble(cpd.translation.norm()) << "\n  translation    "
+              << Words(cpd.translation) << "\n  residual       " << ShortDouble(cpd.residual)
+              << "\n  local sums     " << cpd.iterations << ", " << cpd.local_triangles
+              << " triangles in the last\n  ms             " << Fixed(cpd.minkowski_ms, 3)
+              << " sum, " << Fixed(cpd.phong_ms, 3) << " projection, " << Fixed(cpd.total_ms, 3)
+              << " in all\n"
+              << "depth            " << ToString(depth.status) << ", "
+              << ShortDouble(depth.lower_bound) << " to " << ShortDouble(depth.upper_bound)
+              << "\n  translation    " << Words(depth.translation) << "\n  nearest        "
+              << ToString(depth.kind) << "\n  ms             " << Fixed(depth_time.count(), 3)
+              << "\ncontact space    " << ShortDouble(contact.translation.norm())
+              << ", a local optimum\n";
+    if (arguments.judge) {
+      std::cout << "judge            " << findings.size() << " findings\n";
+      for (const std::string& finding : findings) std::cout << "  " << finding << '\n';
+    }
+  }
+  return findings.empty() ? kFine : kFindings;
+}
+
+int RunScene(const Arguments& arguments) {
+  const PaperScene* scene = FindPaperScene(arguments.scene);
+  if (scene == nullptr) {
+    std::string names;
+    for (const PaperScene& each : AllPaperScenes()) names += " " + each.name;
+    throw BadInput{"--scene: '" + arguments.scene + "' is none of" + names};
+  }
+  if (arguments.frames < 1) throw BadInput{"--frames: at least one"};
+  const std::vector<CpdFrame> frames = RunCpdScene(*scene, arguments.frames);
+  const auto write = [&](const std::string& path, const auto& print) {
+    if (path.empty()) return;
+    std::ofstream out(path);
+    print(out);
+    if (!out) throw BadInput{path + " cannot be written"};
+  };
+  write(arguments.csv, [&](std::ostream& out) { WriteCpdCsv(frames, out); });
+  write(arguments.svg, [&](std::ostream& out) { WriteCpdSvg(scene->name, frames, out); });
+  int found = 0, ended = 0, findings = 0;
+  std::vector<double> total;
+  for (const CpdFrame& frame : frames) {
+    found += frame.cpd.status == ContinuousDepthStatus::kFound;
+    ended += frame.cpd.branch_ended;
+    findings += frame.cpd.status != ContinuousDepthStatus::kSeparate &&
+                frame.cpd.translation.norm() < frame.depth.lower_bound * (1.0 - 1e-9);
+    if (arguments.judge) {
+      const TriangleMesh a = MustBuild(scene->a), b = MustBuild(scene->b);
+      findings +=
+          static_cast<int>(JudgedMeshDepth(a, b, scene->PoseAt(frame.s), frame.depth, 12).size());
+    }
+  }
+  if (arguments.json) {
+    std::cout << Json({{"scene", scene->name},
+                       {"frames", frames.size()},
+                       {"found", found},
+                       {"branches_ended", ended},
+                       {"findings", findings}})
+                     .dump(2)
+              << '\n';
+  } else {
+    std::cout << "scene            " << scene->name << "\nframes           " << frames.size()
+              << "\nfound            " << found << "\nbranches ended   " << ended
+              << "\nfindings         " << findings << '\n';
+    if (arguments.csv.empty() && arguments.svg.empty()) WriteCpdCsv(frames, std::cout);
+  }
+  return findings == 0 ? kFine : kFindings;
+}
+
+int RunCpd(const Arguments& arguments) {
+  if (!arguments.scene.empty()) return RunScene(arguments);
+  if (arguments.a.empty() || arguments.b.empty()) throw BadInput{"two meshes, or --scene"};
+  return RunPair(arguments);
+}
+
+}  // namespace
+
+void AddCpd(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "cpd", "Continuous and global penetration depth of two closed meshes, or along a scene");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("A", arguments->a, kMeshHelp);
+  command->add_option("B", arguments->b, "the other, the same way");
+  command->add_option("--pose", arguments->pose, "B's placement: 12 numbers, row-major 3x4 [R | t]")
+      ->expected(1, -1);
+  command->add_option("--scene", arguments->scene,
+                      "a motion of the paper's: cone-axes, spoon-cup, fish-torus, torus-torus");
+  command->add_option("--frames", arguments->frames, "of the motion")->capture_default_str();
+  command->add_option("--csv", arguments->csv, "file for magnitudes and directions");
+  command->add_option("--svg", arguments->svg, "file for them as a figure");
+  command->add_flag("--judge", arguments->judge, "hold the depth against the exact half");
+  command->add_flag("--json", arguments->json, "print JSON");
+  command->callback([arguments, &exit_code] { exit_code = RunCpd(*arguments); });
+}
+
+}  // namespace touchstone
