@@ -41,6 +41,7 @@ int Run(int argc, char** argv) {
   AddFuzz(app, exit_code);
   AddMembership(app, exit_code);
   AddScene(app, exit_code);
+  AddMinkowski(app, exit_code);
   // Otherwise CLI11 says only that a subcommand is required.
   const auto is_asked = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   AddMinkowskiLocal(app, exit_code);

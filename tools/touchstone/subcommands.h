@@ -28,6 +28,7 @@ void AddDistance(CLI::App& app, int& exit_code);
 void AddEngines(CLI::App& app, int& exit_code);
 void AddFuzz(CLI::App& app, int& exit_code);
 void AddMembership(CLI::App& app, int& exit_code);
+void AddMinkowski(CLI::App& app, int& exit_code);
 void AddReplay(CLI::App& app, int& exit_code);
 void AddScene(CLI::App& app, int& exit_code);
 void AddSuites(CLI::App& app, int& exit_code);
