@@ -43,7 +43,7 @@ const Names& CoreHeadersForExact() {
   static const Names kAllowed = {"core/base/status.h",        "core/base/relative_pose.h",
                                  "core/base/verdict.h",       "core/convex/convex_polyhedron.h",
                                  "core/mesh/triangle_mesh.h", "core/cd_dual/result.h",
-                                 "core/proximity/result.h"};
+                                 "core/proximity/result.h",   "core/minkowski/sum_boundary.h"};
   return kAllowed;
 }
 

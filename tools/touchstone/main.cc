@@ -5,7 +5,6 @@
 #include <iostream>
 
 #include "touchstone/tools/touchstone/cpd.h"
-#include "touchstone/tools/touchstone/minkowski_local.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 #include "touchstone/tools/words.h"
 
@@ -40,11 +39,10 @@ int Run(int argc, char** argv) {
   AddEngines(app, exit_code);
   AddFuzz(app, exit_code);
   AddMembership(app, exit_code);
-  AddScene(app, exit_code);
   AddMinkowski(app, exit_code);
+  AddScene(app, exit_code);
   // Otherwise CLI11 says only that a subcommand is required.
   const auto is_asked = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
-  AddMinkowskiLocal(app, exit_code);
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_asked).empty()) {
     throw BadInput{"there is no subcommand '" + std::string(argv[1]) + "'; see touchstone --help"};
   }

@@ -197,30 +197,4 @@ int RunLocalSum(const LocalSumArguments& arguments, const TriangleMesh& a, const
   return kFine;
 }
 
-void AddMinkowskiLocal(CLI::App& app, int& exit_code) {
-  const auto is_there = [](const CLI::App* each) { return each->get_name() == "minkowski"; };
-  if (!app.get_subcommands(is_there).empty()) return;
-  struct Arguments {
-    std::string a, b, out;
-    std::vector<std::string> pose;
-    LocalSumArguments local;
-    bool json = false;
-  };
-  CLI::App* command = app.add_subcommand(
-      "minkowski", "The boundary of the Minkowski difference of two closed meshes, in a ball");
-  const auto arguments = std::make_shared<Arguments>();
-  command->add_option("A", arguments->a, kMeshHelp)->required();
-  command->add_option("B", arguments->b, "the other, the same way")->required();
-  command->add_option("--pose", arguments->pose, "B's placement: 12 numbers, row-major 3x4 [R | t]")
-      ->expected(1, -1);
-  command->add_option("--out", arguments->out, "write the surface to this OFF file");
-  command->add_flag("--json", arguments->json, "print JSON");
-  AddLocalSumOptions(command, &arguments->local);
-  command->callback([arguments, &exit_code] {
-    if (arguments->local.ball.empty()) throw BadInput{"--ball: centre x y z and radius, please"};
-    exit_code = RunLocalSum(arguments->local, LoadMesh(arguments->a), LoadMesh(arguments->b),
-                            ParsePose(arguments->pose), arguments->out, arguments->json);
-  });
-}
-
 }  // namespace touchstone

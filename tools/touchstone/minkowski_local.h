@@ -29,9 +29,6 @@ void AddLocalSumOptions(CLI::App* command, LocalSumArguments* arguments);
 int RunLocalSum(const LocalSumArguments& arguments, const TriangleMesh& a, const TriangleMesh& b,
                 const RelativePose& pose, const std::string& out, bool json);
 
-// The subcommand with these options alone, where none of its name is there yet.
-void AddMinkowskiLocal(CLI::App& app, int& exit_code);
-
 }  // namespace touchstone
 
 #endif  // TOUCHSTONE_TOOLS_TOUCHSTONE_MINKOWSKI_LOCAL_H_
