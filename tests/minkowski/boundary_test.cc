@@ -193,7 +193,7 @@ TEST(SumBoundary, AgreesWithMembershipWhereFeaturesAlign) {
        {std::pair("u", "u"), std::pair("slot", "l"), std::pair("axes", "axes"),
         std::pair("pocket", "axes"), std::pair("star", "star"), std::pair("dimpled", "spiked"),
         std::pair("cone", "cone"), std::pair("torus", "torus")}) {
-    for (const double angle : {0.0, 1e-15, 1e-9, std::numbers::pi / 4}) {
+    for (const double angle : {0.0, 1e-15, 1e-9, 1e-3, std::numbers::pi / 4}) {
       SCOPED_TRACE(std::string(name_a) + ' ' + name_b + ' ' + std::to_string(angle));
       const Matrix3d rotation = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
       const Sum sum = SumOf(NamedShape(name_a, 0 == std::string(name_a).compare("torus") ? 64 : 40),
@@ -243,6 +243,89 @@ TEST(SumBoundary, ScalingByPowersOfTwoAndMovingChangeNothingElse) {
   EXPECT_NEAR(Volume(moved.boundary), Volume(sum.boundary), 1e-10);
   for (std::size_t i = 0; i < sum.boundary.vertices.size(); ++i) {
     EXPECT_LT((moved.boundary.vertices[i] + shift - sum.boundary.vertices[i]).norm(), 1e-10);
+  }
+}
+
+TEST(SumBoundary, KeyInASlotLeavesASheet) {
+  const Sum sum = SumOf(Slot(), Key());
+  ExpectClosed(sum.boundary);
+  EXPECT_NEAR(Volume(sum.boundary), 6.0 * 4 * 7, 1e-10);
+  double area = 0.0;
+  for (const auto& [a, b, c] : sum.boundary.sheets) {
+    const auto& at = sum.boundary.vertices;
+    area += 0.5 * (at[b] - at[a]).cross(at[c] - at[a]).norm();
+    for (const int v : {a, b, c}) EXPECT_NEAR(at[v][0], 2.0, sum.boundary.rounding);
+  }
+  EXPECT_NEAR(area, 4.0 * 2.0, 1e-12);  // all along the groove, from its floor to the rims
+  EXPECT_EQ(Membership(sum.pair, Vector3d(2, 1, 2)).verdict, Verdict::kTouch);
+}
+
+// The apex of a dent supports nothing; a spike that fits the dent at its apex alone touches there.
+TEST(SumBoundary, SpikeInADimple) {
+  const Shape dent = Dimpled(6), spike = Spiked(6);
+  const Matrix3d over = Vector3d(1, -1, -1).asDiagonal();  // upside down
+  const Sum sum = SumOf(dent, spike, PoseOf(over));
+  ExpectClosed(sum.boundary);
+  ASSERT_EQ(sum.boundary.components.size(), 1u);
+  EXPECT_EQ(sum.boundary.components[0].euler_characteristic(), 2);
+  testing::Random random(36);
+  ExpectMembershipAgrees(sum, 200, random);
+  // No facet names the dent's apex, though the surface has a dent.
+  int apex = -1;
+  const TriangleMesh& a = sum.pair.a().mesh;
+  for (int v = 0; v < a.vertex_count(); ++v) {
+    if (a.vertex(v)[0] == 0 && a.vertex(v)[1] == 0) apex = v;
+  }
+  ASSERT_GE(apex, 0);
+  for (const SumFacet& facet : sum.boundary.facets) {
+    EXPECT_FALSE(facet.kind == SumFacetKind::kVertexFace && facet.a == apex);
+  }
+  EXPECT_LT(Volume(sum.boundary),
+            Volume(SumOf(Box({-2, -2, -2}, {2, 2, 0}), spike, PoseOf(over)).boundary) - 1e-3);
+}
+
+// Both bodies turned by a rotation without rounding: the same sum, turned.
+TEST(SumBoundary, TurningBothTurnsTheSum) {
+  const Matrix3d turn = (Matrix3d() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished();
+  const auto turned = [&](Shape shape) {
+    for (Vector3d& x : shape.vertices) x = turn * x;
+    return shape;
+  };
+  testing::Random random(37);
+  const Matrix3d rotation = random.Rotation();
+  for (const auto& [name_a, name_b] : {std::pair("u", "key"), std::pair("star", "axes")}) {
+    const Shape a = NamedShape(name_a, 0), b = NamedShape(name_b, 0);
+    const Sum sum = SumOf(a, b, PoseOf(rotation));
+    const Sum other = SumOf(turned(a), turned(b), PoseOf(turn * rotation * turn.transpose()));
+    EXPECT_EQ(other.boundary.facets, sum.boundary.facets);
+    EXPECT_EQ(other.boundary.triangles.size(), sum.boundary.triangles.size());
+    EXPECT_EQ(other.boundary.cells, sum.boundary.cells);
+    EXPECT_NEAR(Volume(other.boundary), Volume(sum.boundary), 1e-10);
+  }
+}
+
+// Coordinates with all their bits, and rounded to a grid, where features align and coincide.
+TEST(SumBoundary, SnappedAndUnsnappedInputs) {
+  testing::Random random(38);
+  const auto snapped = [](Shape shape, double grid) {
+    for (Vector3d& x : shape.vertices) {
+      for (int i = 0; i < 3; ++i) x[i] = grid * std::round(x[i] / grid);
+    }
+    return shape;
+  };
+  const Matrix3d turn = Eigen::AngleAxisd(0.6, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  Shape a = NamedShape("torus", 64), b = NamedShape("star", 0);
+  for (Vector3d& x : b.vertices) x = turn * x;
+  double before = 0.0;
+  for (const double grid : {0x1p-40, 0x1p-10, 0x1p-4}) {
+    const Sum sum = SumOf(snapped(a, grid), snapped(b, grid));
+    ExpectClosed(sum.boundary);
+    ExpectMembershipAgrees(sum, 100, random);
+    const double volume = Volume(sum.boundary);
+    if (before > 0.0) {
+      EXPECT_NEAR(volume, before, 0.1 * before);
+    }
+    before = volume;
   }
 }
 

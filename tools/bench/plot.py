@@ -6,6 +6,7 @@ figure8.svg, figure9.svg   time against the gap: by the number of vertices, by t
 figure10.svg               time in each stage of the published search against the gap
 error-verdicts.svg         time against wrong verdicts, a panel for each size of the gap
 error-gaps.svg             share of wrong verdicts against the size of the gap
+boundary-growth.svg        time of the whole Minkowski boundary against facets (`bench boundary`)
 error-values.svg           time against the relative error of exit travel, distance and depth
 scene.svg                  time a step against the number of bodies (`touchstone bench scene --svg`)
 """
@@ -312,6 +313,30 @@ def scene(directory):
     save(figure, directory, "scene.svg")
 
 
+def boundary_growth(directory):
+    rows = read(directory, "boundary-growth.csv")
+    if not rows:
+        return
+    facets = [float(row["facets"]) for row in rows]
+    seconds = [float(row["seconds"]) for row in rows]
+    exponent = float(rows[0]["exponent"])
+    middle = math.exp(sum(map(math.log, seconds)) / len(rows))
+    centre = math.exp(sum(map(math.log, facets)) / len(rows))
+    figure, axis = plt.subplots(figsize=(6, 4))
+    axis.plot(facets, [middle * (f / centre) ** exponent for f in facets], "--", color="#7f7f7f",
+              linewidth=1.0, label=f"facets to the {exponent:.2f}")
+    axis.plot(facets, seconds, "o", color="#d62728", label="torus / torus")
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.grid(True, which="major", color="#dddddd", linewidth=0.5)
+    axis.set_xlabel("facets of the convolution")
+    axis.set_ylabel("seconds")
+    axis.set_title("Time of the whole boundary against facets", fontsize=11)
+    axis.legend(frameon=False)
+    figure.tight_layout()
+    save(figure, directory, "boundary-growth.svg")
+
+
 def main():
     if len(sys.argv) != 2 or not os.path.isdir(sys.argv[1]):
         sys.exit(__doc__)
@@ -327,6 +352,7 @@ def main():
     error_gaps(directory)
     error_values(directory)
     scene(directory)
+    boundary_growth(directory)
 
 
 if __name__ == "__main__":

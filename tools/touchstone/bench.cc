@@ -61,6 +61,7 @@ void ShowProgress(double fraction) {
 void AddBench(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bench", "Time engines side by side");
   command->require_subcommand(1);
+  AddBenchBoundary(*command, exit_code);
   AddBenchConvex(*command, exit_code);
   AddBenchCpd(*command, exit_code);
   AddBenchFigures(*command, exit_code);

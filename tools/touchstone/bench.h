@@ -23,6 +23,7 @@ void PlotFigures(const std::string& directory);
 void ShowProgress(double fraction);
 
 // What can be timed: one subcommand of `bench` a file.
+void AddBenchBoundary(CLI::App& bench, int& exit_code);
 void AddBenchConvex(CLI::App& bench, int& exit_code);
 void AddBenchFigures(CLI::App& bench, int& exit_code);
 void AddBenchMinkowski(CLI::App& bench, int& exit_code);

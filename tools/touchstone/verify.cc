@@ -10,10 +10,13 @@
 #include <thread>
 #include <vector>
 
+#include "touchstone/tools/membership_run.h"
 #include "touchstone/tools/numbers.h"
 #include "touchstone/tools/proximity_report.h"
 #include "touchstone/tools/proximity_run.h"
+#include "touchstone/tools/result_json.h"
 #include "touchstone/tools/suites/registry.h"
+#include "touchstone/tools/table.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 #include "touchstone/tools/verify_report.h"
 #include "touchstone/tools/words.h"
@@ -28,7 +31,7 @@ struct Arguments {
   std::string meshes, cases;
   int threads = 0;
   std::string certainty = "exact", early_exit = "mixed", depth = "mixed";
-  bool coverage = false, proximity = false, json = false;
+  bool coverage = false, proximity = false, membership = false, json = false;
 };
 
 constexpr std::uint64_t kDefaultCount = 1000;
@@ -94,7 +97,52 @@ void ShowProgress(const Progress& progress) {
             << " judged, " << progress.findings << " findings " << std::flush;
 }
 
+int RunMembershipCommand(const Arguments& arguments) {
+  if (arguments.minutes != 0.0) throw BadInput{"--minutes: --membership takes a --count"};
+  const MembershipRunOptions options{arguments.seed, arguments.first,
+                                     arguments.count == 0 ? kDefaultCount : arguments.count};
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const auto stats = RunMembershipPlacements(options, [&](double fraction) {
+    if (terminal) std::cerr << '\r' << static_cast<int>(100.0 * fraction) << "% " << std::flush;
+  });
+  if (terminal) std::cerr << "\r\033[K";
+  Json json = {{"seed", options.seed}, {"first", options.first}, {"count", options.count}};
+  json["results"] = Json::array();
+  Table table;
+  table.Row({"placements", "count", "separate", "touch", "overlap", "wrong", "wrong in doubles",
+             "undecided in doubles"});
+  std::uint64_t wrong = 0;
+  for (int p = 0; p < kMembershipPlacementCount; ++p) {
+    const MembershipStats& own = stats[p];
+    const std::string name(ToString(static_cast<MembershipPlacement>(p)));
+    json["results"].push_back({{"placement", name},
+                               {"placements", own.placements},
+                               {"separate", own.verdicts[0]},
+                               {"touch", own.verdicts[1]},
+                               {"overlap", own.verdicts[2]},
+                               {"wrong", own.wrong},
+                               {"wrong_in_doubles", own.wrong_in_doubles},
+                               {"undecided", own.undecided},
+                               {"samples", own.samples}});
+    table.Row({name, std::to_string(own.placements), std::to_string(own.verdicts[0]),
+               std::to_string(own.verdicts[1]), std::to_string(own.verdicts[2]),
+               std::to_string(own.wrong), std::to_string(own.wrong_in_doubles),
+               std::to_string(own.undecided)});
+    wrong += own.wrong + own.wrong_in_doubles;
+  }
+  if (arguments.json) {
+    std::cout << json.dump(2) << '\n';
+  } else {
+    table.Print(std::cout);
+    for (const MembershipStats& own : stats) {
+      for (const std::string& sample : own.samples) std::cout << sample << '\n';
+    }
+  }
+  return wrong == 0 ? kFine : kFindings;
+}
+
 int RunVerifyCommand(const Arguments& arguments) {
+  if (arguments.membership) return RunMembershipCommand(arguments);
   if (!arguments.meshes.empty() && !std::filesystem::is_directory(arguments.meshes)) {
     throw BadInput{"--meshes: " + arguments.meshes + " is not a folder"};
   }
@@ -173,6 +221,10 @@ void AddVerify(CLI::App& app, int& exit_code) {
                     "print the count of every combination of class, phase, verdict");
   command->add_flag("--proximity", arguments->proximity,
                     "ask distances, depths and travels instead of verdicts");
+  command->add_flag(
+      "--membership", arguments->membership,
+      "ask where meshes stand, exactly, near contact and anywhere: --count placements "
+      "from --first on, on one thread");
   command->add_flag("--json", arguments->json, "print JSON");
   command->footer(
       "Exit code 1 when a proven search has a finding; the published search's are counted, not an "

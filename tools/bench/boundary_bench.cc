@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/tools/bench/boundary_bench.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+#include "touchstone/core/mesh/membership.h"
+#include "touchstone/core/minkowski/boundary.h"
+#include "touchstone/exact/judge_minkowski.h"
+#include "touchstone/exact/nef_mesh_sum.h"
+#include "touchstone/tools/mesh_io.h"
+#include "touchstone/tools/shapes/paper_scenes.h"
+#include "touchstone/tools/shapes/shapes.h"
+#include "touchstone/tools/suites/random.h"
+
+namespace touchstone {
+namespace {
+
+using Eigen::Vector3d;
+
+double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+double Quantile(std::vector<double> values, double part) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+}
+
+BoundaryRow TimeScene(const std::string& name, const Shape& shape_a, const Shape& shape_b,
+                      const BoundaryBenchOptions& options) {
+  const TriangleMesh a = MustBuild(shape_a), b = MustBuild(shape_b);
+  BoundaryRow row{name, a.face_count(), b.face_count()};
+  Random random("boundary_bench", options.seed, 0);
+  std::vector<double> times;
+  for (int turn = 0; turn < options.rotations; ++turn) {
+    const RelativePose pose = *RelativePose::Make(random.Rotation(), Vector3d::Zero());
+    const double begin = ProcessorSeconds();
+    const SumBoundary boundary = BuildSumBoundary(MeshPair(a, b, pose), GaussMap(a), GaussMap(b));
+    times.push_back(ProcessorSeconds() - begin);
+    row.facets = std::ssize(boundary.facets);
+    row.crossings = boundary.crossings;
+    row.cells = boundary.cells;
+    row.memberships = boundary.memberships;
+    row.exact_signs = boundary.exact_signs;
+    row.triangles = std::ssize(boundary.triangles);
+    row.components = std::ssize(boundary.components);
+  }
+  row.median_seconds = Quantile(times, 0.5);
+  return row;
+}
+
+// What a child tells its parent.
+struct NefReport {
+  double seconds;
+  bool is_same;
+};
+
+std::optional<NefReport> RunNefInChild(const TriangleMesh& a, const TriangleMesh& b,
+                                       const RelativePose& pose, const SumBoundary& boundary,
+                                       double limit_seconds) {
+  int ends[2];
+  if (pipe(ends) != 0) return std::nullopt;
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(static_cast<unsigned>(std::ceil(20.0 * limit_seconds)));
+    const double begin = ProcessorSeconds();
+    rlimit before{};
+    getrlimit(RLIMIT_CPU, &before);
+    const rlimit limit{static_cast<rlim_t>(std::ceil(limit_seconds)) + 1, before.rlim_max};
+    setrlimit(RLIMIT_CPU, &limit);
+    exact::MakeNefMeshSum(exact::PlacedMeshPair(a, b, pose));
+    NefReport report{ProcessorSeconds() - begin, false};
+    setrlimit(RLIMIT_CPU, &before);
+    report.is_same =
+        exact::JudgeMinkowski(a, b, pose, boundary, {.samples = 0, .lines = 0, .construct = true})
+            .empty();
+    const bool is_told = write(ends[1], &report, sizeof report) == sizeof report;
+    _exit(is_told ? 0 : 1);
+  }
+  close(ends[1]);
+  NefReport report;
+  const bool is_told = child > 0 && read(ends[0], &report, sizeof report) == sizeof report;
+  close(ends[0]);
+  if (child > 0) waitpid(child, nullptr, 0);
+  return is_told ? std::optional(report) : std::nullopt;
+}
+
+struct NefPair {
+  std::string a, b;
+  int faces_a, faces_b;
+};
+
+std::vector<NefPair> NefPairs(bool quick) {
+  std::vector<NefPair> pairs = {{"box", "box", 0, 0}, {"u", "key", 0, 0}, {"hollow", "box", 0, 0}};
+  if (quick) return pairs;
+  const std::vector<NefPair> more = {
+      {"pocket", "key", 0, 0},   {"slot", "key", 0, 0},       {"l", "u", 0, 0},
+      {"axes", "box", 0, 0},     {"axes", "axes", 0, 0},      {"star", "box", 0, 0},
+      {"star", "u", 0, 0},       {"cone", "box", 24, 0},      {"cone", "axes", 24, 0},
+      {"dimpled", "box", 0, 0},  {"dimpled", "spiked", 0, 0}, {"torus", "box", 48, 0},
+      {"torus", "torus", 32, 32}};
+  pairs.insert(pairs.end(), more.begin(), more.end());
+  return pairs;
+}
+
+std::optional<TriangleMesh> ReadClosedMesh(const std::string& path) {
+  const Loaded<PolygonSoup> soup = ReadPolygonSoup(path);
+  if (!soup.ok() || !soup->IsClosed()) return std::nullopt;
+  Shape shape;
+  shape.vertices = soup->points;
+  for (const std::vector<int>& loop : soup->polygons) {
+    for (std::size_t k = 2; k < loop.size(); ++k) {
+      shape.AddTriangle(loop[0], loop[k - 1], loop[k]);
+    }
+  }
+  StatusOr<TriangleMesh> mesh = TriangleMesh::Build(shape.vertices, shape.faces);
+  return mesh.ok() ? std::optional(*mesh) : std::nullopt;
+}
+
+MembershipRow TimePair(const std::string& name, const TriangleMesh& a, const TriangleMesh& b,
+                       int queries, std::uint64_t seed) {
+  constexpr int kRotations = 10;
+  MembershipRow row{name, a.face_count(), b.face_count()};
+  Random random("membership_bench", seed, 0);
+  MembershipCache cache;
+  std::vector<double> times;
+  double sum = 0.0;
+  for (int turn = 0; turn < kRotations; ++turn) {
+    const MeshPair pair(a, b, *RelativePose::Make(random.Rotation(), Vector3d::Zero()));
+    const double scale = 1.0 / pair.scale();
+    Vector3d low = Vector3d::Constant(1e300), high = -low, low_b = low, high_b = high;
+    for (const Vector3d& x : pair.a().points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    for (const Vector3d& x : pair.b().points)
+      low_b = low_b.cwiseMin(x), high_b = high_b.cwiseMax(x);
+    Membership(pair, Vector3d(Vector3d::Zero()), {}, &cache);  // the memory
+    for (int q = 0; q < queries / kRotations; ++q) {
+      Vector3d x;
+      for (int i = 0; i < 3; ++i) {
+        x[i] = scale * random.Uniform(low[i] - high_b[i], high[i] - low_b[i]);
+      }
+      cache.witness = {-1, -1};
+      const auto begin = std::chrono::steady_clock::now();
+      const MembershipResult result = Membership(pair, x, {Certainty::kFloat}, &cache);
+      const std::chrono::duration<double, std::micro> time =
+          std::chrono::steady_clock::now() - begin;
+      times.push_back(time.count());
+      sum += time.count();
+      row.undecided += result.verdict == Verdict::kUndecided;
+    }
+  }
+  row.queries = std::ssize(times);
+  row.mean_us = sum / static_cast<double>(times.size());
+  row.median_us = Quantile(times, 0.5);
+  row.p99_us = Quantile(times, 0.99);
+  return row;
+}
+
+}  // namespace
+
+std::vector<BoundaryRow> TimePaperScenes(const BoundaryBenchOptions& options) {
+  std::vector<BoundaryRow> rows;
+  for (const PaperScene& scene : AllPaperScenes()) {
+    rows.push_back(TimeScene(scene.name, scene.a, scene.b, options));
+  }
+  return rows;
+}
+
+std::vector<BoundaryRow> TimeGrowth(std::span<const int> sizes,
+                                    const BoundaryBenchOptions& options) {
+  std::vector<BoundaryRow> rows;
+  for (const int size : sizes) {
+    const Shape torus = NamedShape("torus", size);
+    rows.push_back(TimeScene("torus-torus", torus, torus, options));
+  }
+  return rows;
+}
+
+double GrowthExponent(std::span<const BoundaryRow> rows) {
+  double n = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0;
+  for (const BoundaryRow& row : rows) {
+    const double x = std::log(static_cast<double>(row.facets)), y = std::log(row.median_seconds);
+    n += 1.0, sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y;
+  }
+  return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+}
+
+std::optional<double> PeakMemoryOfTori(int faces) {
+  const std::string torus = "shape:torus:" + std::to_string(faces);
+  const pid_t child = fork();
+  if (child < 0) return std::nullopt;
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    // Turned by a rational rotation: (1, 2, 2) / 3 and so on are unit vectors.
+    execl("/proc/self/exe", "touchstone", "minkowski", torus.c_str(), torus.c_str(), "--pose",
+          "0.333333333333333333", "-0.666666666666666667", "0.666666666666666667", "0",
+          "0.666666666666666667", "0.666666666666666667", "0.333333333333333333", "0",
+          "-0.666666666666666667", "0.333333333333333333", "0.666666666666666667", "0",
+          static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  int status = 0;
+  rusage usage{};
+  if (wait4(child, &status, 0, &usage) != child || status != 0) return std::nullopt;
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+std::vector<NefRow> CompareWithNef(bool quick, double limit_seconds, std::uint64_t seed) {
+  std::vector<NefRow> rows;
+  Random random("boundary_nef", seed, 0);
+  for (const NefPair& names : NefPairs(quick)) {
+    const TriangleMesh a = MustBuild(NamedShape(names.a, names.faces_a)),
+                       b = MustBuild(NamedShape(names.b, names.faces_b));
+    for (const bool is_turned : {false, true}) {
+      const Eigen::Matrix3d rotation =
+          is_turned ? random.Rotation() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+      const RelativePose pose = *RelativePose::Make(rotation, Vector3d::Zero());
+      NefRow row{names.a + '/' + names.b + (is_turned ? ", turned" : ""), a.face_count(),
+                 b.face_count()};
+      const double begin = ProcessorSeconds();
+      const SumBoundary boundary = BuildSumBoundary(MeshPair(a, b, pose), GaussMap(a), GaussMap(b));
+      row.seconds = ProcessorSeconds() - begin;
+      if (const auto report = RunNefInChild(a, b, pose, boundary, limit_seconds)) {
+        row.nef_seconds = report->seconds;
+        row.is_same = report->is_same;
+      }
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+std::vector<MembershipRow> TimeMembership(const std::string& meshes, int queries,
+                                          std::uint64_t seed) {
+  std::vector<MembershipRow> rows;
+  for (const PaperScene& scene : AllPaperScenes()) {
+    rows.push_back(TimePair(scene.name, MustBuild(scene.a), MustBuild(scene.b), queries, seed));
+  }
+  if (meshes.empty()) return rows;
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(meshes)) {
+    paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  for (const auto& path : paths) {
+    const std::optional<TriangleMesh> mesh = ReadClosedMesh(path);
+    if (!mesh || mesh->face_count() < 1000 || mesh->face_count() > 20000) continue;
+    rows.push_back(TimePair(path.stem().string(), *mesh, *mesh, queries, seed));
+  }
+  return rows;
+}
+
+}  // namespace touchstone
