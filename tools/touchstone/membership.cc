@@ -93,7 +93,8 @@ void AddMembership(CLI::App& app, int& exit_code) {
   command->add_option("A", arguments->a, kMeshHelp)->required();
   command->add_option("B", arguments->b, "the other, the same way")->required();
   command->add_option("--at", arguments->at, "the translation x of B, in A's frame: 3 numbers")
-      ->expected(3);
+      ->expected(3)
+      ->required();
   command
       ->add_option("--pose", arguments->pose,
                    "B's placement before that: 12 numbers, row-major 3x4 [R | t]")
