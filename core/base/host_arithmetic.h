@@ -12,9 +12,9 @@ enum class Rounding { kToNearest, kUpward, kDownward, kTowardZero, kUnknown };
 // How the calling thread computes at the moment. Hosts change these: game engines flush denormals
 // to zero, interval libraries round upward, and both may forget to change back.
 //
-// No answer of the library depends on it: error bounds hold in every rounding mode, lengths are scaled
-// away from underflow, and exact signs are integer arithmetic. Reported all the same, since last
-// digits and times do depend on it.
+// No answer of the library depends on it: error bounds hold in every rounding mode, lengths are
+// scaled away from underflow, and exact signs are integer arithmetic. Reported all the same, since
+// last digits and times do depend on it.
 struct HostArithmetic {
   Rounding rounding = Rounding::kToNearest;
   bool flushes_results = false;   // a denormal result becomes zero

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <vector>
 
 #include "touchstone/exact/judge_cpd.h"
 #include "touchstone/exact/mesh_membership.h"
@@ -52,6 +53,17 @@ Vector3d NearestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d&
     if (x.squaredNorm() < best.squaredNorm()) best = x;
   }
   return best;
+}
+
+// Each edge once: of the two faces that it joins, the one that runs it upward tells.
+std::vector<std::array<int, 2>> EdgesOf(const TriangleMesh& mesh) {
+  std::vector<std::array<int, 2>> edges;
+  for (const Triangle& f : mesh.faces()) {
+    for (int k = 0; k < 3; ++k) {
+      if (f[k] < f[(k + 1) % 3]) edges.push_back({f[k], f[(k + 1) % 3]});
+    }
+  }
+  return edges;
 }
 
 class DepthJudge {
@@ -117,12 +129,11 @@ class DepthJudge {
     for (const Triangle& f : b.faces()) {
       for (const Vector3d& v : p) Consider(v - q[f[0]], v - q[f[1]], v - q[f[2]]);
     }
-    for (int e = 0; e < a.edge_count(); ++e) {
-      const int h = a.half_edge_of(e);
-      const Vector3d &p0 = p[a.tail(h)], &p1 = p[a.head(h)];
-      for (int g = 0; g < b.edge_count(); ++g) {
-        const int k = b.half_edge_of(g);
-        const Vector3d &q0 = q[b.tail(k)], &q1 = q[b.head(k)];
+    const std::vector<std::array<int, 2>> edges_a = EdgesOf(a), edges_b = EdgesOf(b);
+    for (const auto& [tail_a, head_a] : edges_a) {
+      const Vector3d &p0 = p[tail_a], &p1 = p[head_a];
+      for (const auto& [tail_b, head_b] : edges_b) {
+        const Vector3d &q0 = q[tail_b], &q1 = q[head_b];
         Consider(p0 - q0, p1 - q0, p1 - q1);
         Consider(p0 - q0, p1 - q1, p0 - q1);
       }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "touchstone/core/base/orientation.h"
+
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -6,7 +8,6 @@
 #include <vector>
 
 #include "touchstone/core/base/dyadic.h"
-#include "touchstone/core/base/orientation.h"
 #include "touchstone/tests/testing/random.h"
 
 namespace touchstone {

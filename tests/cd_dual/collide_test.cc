@@ -376,11 +376,10 @@ TEST(Collide, NamesACommonPointOnRequest) {
       if (!result.common_point) continue;
       ++named;
       const auto& [point, error] = *result.common_point;
-      const double size = x.p.max_coordinate() + x.q.max_coordinate() +
-                          x.pose.translation().cwiseAbs().maxCoeff();
+      const double size =
+          x.p.max_coordinate() + x.q.max_coordinate() + x.pose.translation().cwiseAbs().maxCoeff();
       EXPECT_LE(error, 1e-12 * size);
-      const Eigen::Vector3d in_q =
-          x.pose.rotation().transpose() * (point - x.pose.translation());
+      const Eigen::Vector3d in_q = x.pose.rotation().transpose() * (point - x.pose.translation());
       for (const auto& [body, at] : {std::pair{&x.p, point}, std::pair{&x.q, in_q}}) {
         for (int f = 0; f < body->face_count(); ++f) {
           const Eigen::Vector3d n = body->face_normal(f).normalized();

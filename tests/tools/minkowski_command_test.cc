@@ -29,11 +29,11 @@ constexpr const char* kOpenCube =
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
     "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n";
 
-// Two tetrahedra, one corner of the second within the first.
+// Two tetrahedra, the second a needle through the first.
 constexpr const char* kCrossing =
     "OFF\n8 8 0\n"
-    "0 0 0\n4 0 0\n0 4 0\n0 0 4\n1 1 1\n5 1 1\n1 5 1\n1 1 5\n"
-    "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n";
+    "0 0 0\n4 0 0\n0 4 0\n0 0 4\n-2 1 1\n6 0.9 0.9\n6 1.2 0.9\n6 0.9 1.2\n"
+    "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 5 6 7\n3 4 6 5\n3 4 7 6\n3 4 5 7\n";
 
 class MeshCommands : public ::testing::Test {
  protected:

@@ -10,8 +10,8 @@
 
 namespace touchstone {
 
-// The engines of these names, or all in double precision that can run; says on stderr which cannot. Throws BadInput for
-// a name that there is not, or that cannot run.
+// The engines of these names, or all in double precision that can run; says on stderr which cannot.
+// Throws BadInput for a name that there is not, or that cannot run.
 std::vector<EngineDescription> SelectEngines(const std::vector<std::string>& names);
 
 // Makes the folder where there is none. Throws BadInput when it cannot.
