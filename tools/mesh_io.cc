@@ -90,6 +90,39 @@ bool CallReader(const std::string& extension, std::istream& in, CgalPoints& poin
   return CGAL::IO::read_PLY(in, points, polygons, quiet);
 }
 
+// What is wrong with the header of a PLY file, ": line 3: ...", or nothing. CGAL's reader skips
+// words that it does not know, and takes a property for one of an element that is not there.
+std::string PlyHeaderError(const std::string& content) {
+  std::istringstream in(content);
+  std::string line;
+  bool has_element = false;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::istringstream words(line);
+    std::string keyword, name, count;
+    words >> keyword;
+    const auto fail = [&](const std::string& what) {
+      return ": line " + std::to_string(number) + ": " + what;
+    };
+    if (number == 1) {
+      if (keyword != "ply") return fail("does not begin with ply");
+    } else if (keyword == "end_header") {
+      return "";
+    } else if (keyword == "element") {
+      words >> name >> count;
+      if (count.empty() || count.size() > 18 ||
+          count.find_first_not_of("0123456789") != std::string::npos) {
+        return fail("an element needs a name and a count");
+      }
+      has_element = true;
+    } else if (keyword == "property") {
+      if (!has_element) return fail("a property of no element");
+    } else if (keyword != "format" && keyword != "comment" && keyword != "obj_info") {
+      return fail("a header has no such line");
+    }
+  }
+  return ": the header has no end";
+}
+
 // ": line 7: ..." for text, ": byte 84: ..." for what does not look like text.
 std::string Where(const std::string& content, std::istream& in) {
   in.clear();
@@ -170,6 +203,11 @@ Loaded<PolygonSoup> ReadPolygonSoup(const std::string& path) {
   if (!file) return Result::Error(path + ": cannot be opened");
   std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (content.empty()) return Result::Error(path + ": the file is empty");
+
+  if (extension == ".ply") {
+    const std::string error = PlyHeaderError(content);
+    if (!error.empty()) return Result::Error(path + error);
+  }
 
   CgalPoints points;
   CgalPolygons polygons;
