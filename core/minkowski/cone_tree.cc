@@ -7,33 +7,18 @@
 #include <cstddef>
 
 #include "touchstone/core/base/vector_clones.h"
+#include "touchstone/core/minkowski/normal_cone_internal.h"
 
 namespace touchstone {
 namespace {
 
 using Eigen::Vector3d;
+using internal::ConeRound;
+using internal::SineOf;
 
 // Cosines and sines are moved by this much towards wider cones: poses may be off orthonormal by
 // 1e-6, directions off unit length by as much.
 constexpr double kPadding = 1e-5;
-
-double SineOf(double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); }
-
-// A cone round two: all directions where they span a half-space or more.
-NormalCone Hull(const NormalCone& a, const NormalCone& b) {
-  if (a.cosine <= 0.0 || b.cosine <= 0.0) return {};
-  Vector3d axis = a.axis + b.axis;
-  const double length = axis.norm();
-  if (length < 1e-3) return {};
-  axis /= length;
-  // cos(angle to the axis + own angle), the smaller of the two.
-  const auto reach = [&](const NormalCone& cone) {
-    const double cosine = std::clamp(axis.dot(cone.axis), -1.0, 1.0);
-    return cosine * cone.cosine - SineOf(cosine) * SineOf(cone.cosine) - 1e-9;
-  };
-  const double cosine = std::min(reach(a), reach(b));
-  return cosine > 0.0 ? NormalCone{axis, cosine} : NormalCone{};
-}
 
 // Parts `items` at `at` along the axis on which the cones' axes spread most.
 void PartAt(std::span<const NormalCone> cones, std::span<int> items, std::ptrdiff_t at) {
@@ -84,7 +69,7 @@ NormalCone ConeTree::AddNode(std::span<const NormalCone> cones, std::span<int> i
       const std::span<int> run = runs[lane];
       child = run.size() == 1 ? ~run[0] : static_cast<int>(nodes_.size());
       cone = run.size() == 1 ? cones[run[0]] : AddNode(cones, run);
-      all = lane == 0 ? cone : Hull(all, cone);
+      all = lane == 0 ? cone : ConeRound(all, cone);
     }
     Node& node = nodes_[index];
     for (int i = 0; i < 3; ++i) node.axis[i][lane] = cone.axis[i];

@@ -6,33 +6,19 @@
 #include <cstddef>
 
 #include "touchstone/core/base/vector_clones.h"
+#include "touchstone/core/minkowski/normal_cone_internal.h"
 
 namespace touchstone {
 namespace {
 
 using Eigen::Vector3d;
+using internal::ConeRound;
+using internal::SineOf;
 
 constexpr int kWidth = kFeatureTreeWidth;
 constexpr double kPadding = 1e-5;
 // Measured on the paper's scenes: anything from 2 to 8 does.
 constexpr double kNormalWeight = 4.0;
-
-double SineOf(double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); }
-
-// A cone round two: all directions where they span a half-space or more.
-NormalCone Hull(const NormalCone& a, const NormalCone& b) {
-  if (a.cosine <= 0.0 || b.cosine <= 0.0) return {};
-  Vector3d axis = a.axis + b.axis;
-  const double length = axis.norm();
-  if (length < 1e-3) return {};
-  axis /= length;
-  const auto reach = [&](const NormalCone& cone) {
-    const double cosine = std::clamp(axis.dot(cone.axis), -1.0, 1.0);
-    return cosine * cone.cosine - SineOf(cosine) * SineOf(cone.cosine) - 1e-9;
-  };
-  const double cosine = std::min(reach(a), reach(b));
-  return cosine > 0.0 ? NormalCone{axis, cosine} : NormalCone{};
-}
 
 // Parts `items` at `at` by place, or by normal where these spread over more of the sphere than
 // places over the body's size.
@@ -116,7 +102,7 @@ FeatureBound FeatureTree::AddNode(std::span<const FeatureBound> bounds, std::spa
   FeatureBound all = lanes[0];
   Vector3d low = lanes[0].centre, high = low;
   for (std::size_t lane = 0; lane < runs.size(); ++lane) {
-    if (lane > 0) all.cone = Hull(all.cone, lanes[lane].cone);
+    if (lane > 0) all.cone = ConeRound(all.cone, lanes[lane].cone);
     low = low.cwiseMin(Vector3d(lanes[lane].centre.array() - lanes[lane].radius));
     high = high.cwiseMax(Vector3d(lanes[lane].centre.array() + lanes[lane].radius));
   }

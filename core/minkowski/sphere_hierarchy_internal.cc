@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "touchstone/core/base/vector_clones.h"
+#include "touchstone/core/minkowski/normal_cone_internal.h"
 
 namespace touchstone::internal {
 namespace {
@@ -20,23 +21,6 @@ constexpr int kWidth = SphereConeTree::kWidth;
 // Cosines and sines are moved by this much towards wider cones, and radii grow by this factor: a
 // pose may be off orthonormal by 1e-6, unit vectors and roundings by far less.
 constexpr double kPadding = 1e-5;
-
-double SineOf(double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); }
-
-// A cone round two: all directions where they span a half-space or more.
-NormalCone ConeRound(const NormalCone& a, const NormalCone& b) {
-  if (a.cosine <= 0.0 || b.cosine <= 0.0) return {};
-  Vector3d axis = a.axis + b.axis;
-  const double length = axis.norm();
-  if (length < 1e-3) return {};
-  axis /= length;
-  const auto reach = [&](const NormalCone& cone) {
-    const double cosine = std::clamp(axis.dot(cone.axis), -1.0, 1.0);
-    return cosine * cone.cosine - SineOf(cosine) * SineOf(cone.cosine) - 1e-9;
-  };
-  const double cosine = std::min(reach(a), reach(b));
-  return cosine > 0.0 ? NormalCone{axis, cosine} : NormalCone{};
-}
 
 // The smallest sphere round two.
 void GrowSphere(FeatureBound* all, const FeatureBound& more) {
