@@ -11,24 +11,37 @@ namespace touchstone::internal {
 
 void BoxLanes::Clear() {
   lanes_.clear();
+  blocks_.clear();
   count_ = 0;
 }
 
-void BoxLanes::Add(const Box3& box) {
+// A new entry for lane 0, of lanes that nothing meets; else the last one.
+BoxLanes::Lanes& BoxLanes::LanesAt(int lane, std::vector<Lanes>* lanes) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const int lane = count_++ % kTreeWidth;
   if (lane == 0) {
-    Lanes& lanes = lanes_.emplace_back();
+    Lanes& added = lanes->emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
       for (int i = 0; i < kTreeWidth; ++i) {
-        lanes.low[axis][i] = kInfinity;
-        lanes.high[axis][i] = -kInfinity;
+        added.low[axis][i] = kInfinity;
+        added.high[axis][i] = -kInfinity;
       }
     }
   }
+  return lanes->back();
+}
+
+void BoxLanes::Add(const Box3& box) {
+  const int lane = count_ % kTreeWidth, block = count_ / kTreeWidth % kTreeWidth;
+  ++count_;
+  Lanes& own = LanesAt(lane, &lanes_);
+  Lanes& round = LanesAt(lane > 0 ? 1 : block, &blocks_);
   for (int axis = 0; axis < 3; ++axis) {
-    lanes_.back().low[axis][lane] = box.low[axis];
-    lanes_.back().high[axis][lane] = box.high[axis];
+    own.low[axis][lane] = box.low[axis];
+    own.high[axis][lane] = box.high[axis];
+    // NaN stays, and meets all.
+    const double low = round.low[axis][block], high = round.high[axis][block];
+    round.low[axis][block] = !(low < box.low[axis]) && low == low ? box.low[axis] : low;
+    round.high[axis][block] = !(high > box.high[axis]) && high == high ? box.high[axis] : high;
   }
 }
 
@@ -48,19 +61,25 @@ unsigned BoxLanes::Mask(const Lanes& lanes, const Box3& box) {
 }
 
 void BoxLanes::Meeting(const Box3& box, std::vector<int>* hits) const {
-  for (int first = 0; first < count_; first += kTreeWidth) {
-    unsigned mask = Mask(lanes_[first / kTreeWidth], box);
-    for (; mask != 0; mask &= mask - 1) {
-      const int number = first + std::countr_zero(mask);
-      if (number < count_) hits->push_back(number);
+  const int entries = static_cast<int>(lanes_.size());
+  for (int first = 0; first < entries; first += kTreeWidth) {
+    unsigned near = Mask(blocks_[first / kTreeWidth], entries - first, box);
+    for (; near != 0; near &= near - 1) {
+      const int entry = first + std::countr_zero(near), base = kTreeWidth * entry;
+      unsigned mask = Mask(lanes_[entry], count_ - base, box);
+      for (; mask != 0; mask &= mask - 1) hits->push_back(base + std::countr_zero(mask));
     }
   }
 }
 
 bool BoxLanes::MeetsAny(const Box3& box) const {
-  for (int first = 0; first < count_; first += kTreeWidth) {
-    const unsigned used = count_ - first < kTreeWidth ? (1u << (count_ - first)) - 1 : ~0u;
-    if ((Mask(lanes_[first / kTreeWidth], box) & used) != 0) return true;
+  const int entries = static_cast<int>(lanes_.size());
+  for (int first = 0; first < entries; first += kTreeWidth) {
+    unsigned near = Mask(blocks_[first / kTreeWidth], entries - first, box);
+    for (; near != 0; near &= near - 1) {
+      const int entry = first + std::countr_zero(near);
+      if (Mask(lanes_[entry], count_ - kTreeWidth * entry, box) != 0) return true;
+    }
   }
   return false;
 }

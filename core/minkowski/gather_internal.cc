@@ -53,10 +53,9 @@ void NearBoxes::Add(const Box3& box) {
   boxes_.Add(box);
 }
 
-bool NearBoxes::MeetsAny(const Box3& box) const {
-  if (boxes_.empty() || !Meet(all_, box)) return false;
-  return boxes_.MeetsAny(box);
-}
+bool NearBoxes::MayMeetAny(const Box3& box) const { return !boxes_.empty() && Meet(all_, box); }
+
+bool NearBoxes::MeetsAny(const Box3& box) const { return MayMeetAny(box) && boxes_.MeetsAny(box); }
 
 std::optional<SumFacet> SupportedFacet(SupportSigns* signs, const TriangleMesh& a,
                                        const TriangleMesh& b, const SumFacet& candidate) {

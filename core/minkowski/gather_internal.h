@@ -37,6 +37,8 @@ class NearBoxes {
   void Add(const Box3& box);
   bool empty() const { return boxes_.empty(); }
   bool MeetsAny(const Box3& box) const;
+  // False: it meets none. O(1).
+  bool MayMeetAny(const Box3& box) const;
   // A box that holds all.
   const Box3& all() const { return all_; }
 

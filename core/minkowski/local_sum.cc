@@ -169,10 +169,11 @@ class LocalMinkowskiSum::Implementation {
     sum_.candidates += static_cast<long>(candidates_.size());
     for (const SumFacet& candidate : candidates_) {
       const internal::FacetCorners corners = internal::RoundedCorners(pair_, candidate);
-      if (!near_.MeetsAny(internal::BoxOf(pair_, corners))) continue;
-      if (internal::MeetsBall(corners, ball)) continue;
+      const Box3 box = internal::BoxOf(pair_, corners);
+      if (!near_.MayMeetAny(box)) continue;
       const auto facet = Supported(signs, candidate);
-      if (facet) supported_.emplace_back(*facet, 0);
+      if (!facet || !near_.MeetsAny(box) || internal::MeetsBall(corners, ball)) continue;
+      supported_.emplace_back(*facet, 0);
     }
   }
 

@@ -21,6 +21,9 @@ constexpr int kWidth = SphereConeTree::kWidth;
 // Cosines and sines are moved by this much towards wider cones, and radii grow by this factor: a
 // pose may be off orthonormal by 1e-6, unit vectors and roundings by far less.
 constexpr double kPadding = 1e-5;
+// A cone that is wider than a half-space counts as all directions. With these for its cosine c and
+// sine s, c cos t - s sin t < -1 for every t up to a right angle, and c² - s² < -1.
+constexpr double kAllCosine = -2.0, kAllSine = 4.0;
 
 // The smallest sphere round two.
 void GrowSphere(FeatureBound* all, const FeatureBound& more) {
@@ -82,45 +85,47 @@ double SizeOf(std::span<const FeatureBound> bounds, std::span<const int> items) 
   return (high - low).norm();
 }
 
-// Bit i of masks[j]: lane i of `a` and lane j of `b` have cones that meet and spheres whose sum
-// meets the ball. Cones of angles s and t meet iff their axes make an angle of at most s + t, of
-// cosine cos s cos t - sin s sin t; always, where that is a half-space or more.
+// Bit i: lane i of the node and the other bound have cones that meet and spheres whose sum meets
+// the ball. Cones of angles s and t meet iff their axes make an angle of at most s + t, of cosine
+// cos s cos t - sin s sin t.
 TOUCHSTONE_VECTOR_CLONES
-void MeetingLanes(const Node& a, const Node& b, int lanes_of_b, const Vector3d& center,
-                  double radius, std::uint8_t masks[kWidth]) {
-  for (int j = 0; j < lanes_of_b; ++j) {
-    const double x = center[0] - b.center[0][j], y = center[1] - b.center[1][j],
-                 z = center[2] - b.center[2][j], r = radius + b.radius[j];
-    std::int64_t meets[kWidth];
-    for (int i = 0; i < kWidth; ++i) {
-      const double dx = a.center[0][i] - x, dy = a.center[1][i] - y, dz = a.center[2][i] - z;
-      const double reach = a.radius[i] + r;
-      const double cosine =
-          a.axis[0][i] * b.axis[0][j] + a.axis[1][i] * b.axis[1][j] + a.axis[2][i] * b.axis[2][j];
-      const double least = a.cosine[i] * b.cosine[j] - a.sine[i] * b.sine[j];
-      const bool is_near = dx * dx + dy * dy + dz * dz <= reach * reach;
-      const bool is_wide = (cosine >= least) | (a.cosine[i] < -1.0) | (b.cosine[j] < -1.0);
-      meets[i] = is_near & is_wide ? std::int64_t{1} << i : 0;
-    }
-    std::int64_t mask = 0;
-    for (int i = 0; i < kWidth; ++i) mask |= meets[i];
-    masks[j] = static_cast<std::uint8_t>(mask);
+unsigned MeetingLanes(const Node& node, const LaneBound& other, const Vector3d& center,
+                      double radius) {
+  const double x = center[0] - other.center[0], y = center[1] - other.center[1],
+               z = center[2] - other.center[2], r = radius + other.radius;
+  std::int64_t meets[kWidth];
+  for (int i = 0; i < kWidth; ++i) meets[i] = std::int64_t{1} << i;
+  for (int i = 0; i < kWidth; ++i) {
+    const double dx = node.center[0][i] - x, dy = node.center[1][i] - y, dz = node.center[2][i] - z;
+    const double reach = node.radius[i] + r;
+    const double cosine = node.axis[0][i] * other.axis[0] + node.axis[1][i] * other.axis[1] +
+                          node.axis[2][i] * other.axis[2];
+    const double least = node.cosine[i] * other.cosine - node.sine[i] * other.sine;
+    // In a form that compilers know to put into lanes.
+    meets[i] = (dx * dx + dy * dy + dz * dz > reach * reach) | (cosine < least) ? 0 : meets[i];
   }
+  std::int64_t mask = 0;
+  for (int i = 0; i < kWidth; ++i) mask |= meets[i];
+  return static_cast<unsigned>(mask) & ((1u << node.lane_count) - 1);
 }
 
-// A lane alone, as a node of one lane.
-void CopyLane(const Node& node, int lane, Node* alone) {
-  for (int to = 0; to < kWidth; ++to) {
-    for (int i = 0; i < 3; ++i) {
-      alone->center[i][to] = node.center[i][lane];
-      alone->axis[i][to] = node.axis[i][lane];
-    }
-    alone->radius[to] = node.radius[lane];
-    alone->cosine[to] = node.cosine[lane];
-    alone->sine[to] = node.sine[lane];
-    alone->children[to] = node.children[lane];
-  }
-  alone->lane_count = 1;
+LaneBound LaneOf(const Node& node, int lane) {
+  return {{node.center[0][lane], node.center[1][lane], node.center[2][lane]},
+          node.radius[lane],
+          {node.axis[0][lane], node.axis[1][lane], node.axis[2][lane]},
+          node.cosine[lane],
+          node.sine[lane]};
+}
+
+// Widened by the padding.
+LaneBound Padded(const FeatureBound& bound) {
+  const bool is_all = bound.cone.cosine <= 0.0;
+  const Vector3d &center = bound.center, &axis = bound.cone.axis;
+  return {{center[0], center[1], center[2]},
+          bound.radius * (1.0 + kPadding),
+          {axis[0], axis[1], axis[2]},
+          is_all ? kAllCosine : bound.cone.cosine - kPadding,
+          is_all ? kAllSine : SineOf(bound.cone.cosine) + kPadding};
 }
 
 FeatureBound BoundOfPoints(std::span<const Vector3d> points, const NormalCone& cone) {
@@ -188,17 +193,16 @@ FeatureBound SphereConeTree::AddNode(std::span<const FeatureBound> bounds, std::
     const int child = static_cast<int>(nodes_.size());
     const bool is_item = runs[lane].size() == 1;
     const FeatureBound bound = is_item ? bounds[runs[lane][0]] : AddNode(bounds, runs[lane]);
+    const LaneBound padded = Padded(bound);
     Node& node = nodes_[index];
     for (std::size_t to = lane; to < kWidth; ++to) {  // unused lanes repeat the last one
       for (int i = 0; i < 3; ++i) {
-        node.center[i][to] = bound.center[i];
-        node.axis[i][to] = bound.cone.axis[i];
+        node.center[i][to] = padded.center[i];
+        node.axis[i][to] = padded.axis[i];
       }
-      node.radius[to] = bound.radius * (1.0 + kPadding);
-      // Below -1 for all directions.
-      const bool is_all = bound.cone.cosine <= 0.0;
-      node.cosine[to] = is_all ? -2.0 : bound.cone.cosine - kPadding;
-      node.sine[to] = is_all ? 0.0 : SineOf(bound.cone.cosine) + kPadding;
+      node.radius[to] = padded.radius;
+      node.cosine[to] = padded.cosine;
+      node.sine[to] = padded.sine;
       node.children[to] = is_item ? ~runs[lane][0] : child;
     }
     if (lane == 0) {
@@ -208,6 +212,7 @@ FeatureBound SphereConeTree::AddNode(std::span<const FeatureBound> bounds, std::
       all.cone = ConeRound(all.cone, bound.cone);
     }
   }
+  nodes_[index].all = Padded(all);
   return all;
 }
 
@@ -241,18 +246,33 @@ void PlacedSphereConeTree::PlaceNode(int i) {
     }
   }
   for (int lane = 0; lane < kWidth; ++lane) {
-    // Places are off by a few units of the pair's size, which is one.
-    placed.radius[lane] = scale_ * node.radius[lane] + 0x1p-44;
-    // Wider than a half-space is all directions.
-    const double cosine = node.cosine[lane] * widening_cosine_ - node.sine[lane] * widening_sine_;
-    const bool is_all = node.cosine[lane] < -1.0 || cosine <= 0.0;
-    placed.cosine[lane] = is_all ? -2.0 : cosine;
-    placed.sine[lane] =
-        is_all ? 0.0 : node.sine[lane] * widening_cosine_ + node.cosine[lane] * widening_sine_;
+    PlaceSize(node.radius[lane], node.cosine[lane], node.sine[lane], &placed.radius[lane],
+              &placed.cosine[lane], &placed.sine[lane]);
     placed.children[lane] = node.children[lane];
   }
+  const LaneBound& all = node.all;
+  for (int k = 0; k < 3; ++k) {
+    placed.all.center[k] = linear_(k, 0) * all.center[0] + linear_(k, 1) * all.center[1] +
+                           linear_(k, 2) * all.center[2] + shift_[k];
+    placed.all.axis[k] =
+        turn_(k, 0) * all.axis[0] + turn_(k, 1) * all.axis[1] + turn_(k, 2) * all.axis[2];
+  }
+  PlaceSize(all.radius, all.cosine, all.sine, &placed.all.radius, &placed.all.cosine,
+            &placed.all.sine);
   placed.lane_count = node.lane_count;
   stamps_[i] = stamp_;
+}
+
+void PlacedSphereConeTree::PlaceSize(double radius, double cosine, double sine,
+                                     double* placed_radius, double* placed_cosine,
+                                     double* placed_sine) const {
+  // Places are off by a few units of the pair's size, which is one.
+  *placed_radius = scale_ * radius + 0x1p-44;
+  // Wider than a half-space is all directions.
+  const double wider = cosine * widening_cosine_ - sine * widening_sine_;
+  const bool is_all = cosine < -1.0 || wider <= 0.0;
+  *placed_cosine = is_all ? kAllCosine : wider;
+  *placed_sine = is_all ? kAllSine : sine * widening_cosine_ + cosine * widening_sine_;
 }
 
 SphereHierarchy::SphereHierarchy(const TriangleMesh& a, const GaussMap& map_a,
@@ -283,38 +303,48 @@ void SphereHierarchy::Candidates(const Vector3d& center, double radius,
   Pairs(kEdges, kEdges, SumFacetKind::kEdgeEdge, center, radius, candidates);
 }
 
+// Of two nodes the larger is opened first, against all of the other: few of its lanes are left.
 void SphereHierarchy::Pairs(Kind kind_a, Kind kind_b, SumFacetKind kind, const Vector3d& center,
                             double radius, std::vector<SumFacet>* candidates) {
   PlacedSphereConeTree &tree_a = trees_[0][kind_a], &tree_b = trees_[1][kind_b];
   if (tree_a.empty() || tree_b.empty()) return;
   // A node, or ~(8 node + lane) for a lane that holds an item.
+  const auto lane_name = [](int node, int lane) { return ~(kWidth * node + lane); };
+  // Of lanes that meet; `i` and `j` name nodes or lanes as they will be pushed.
+  const auto add = [&](int child_a, int child_b, int i, int j) {
+    if (child_a < 0 && child_b < 0) {
+      candidates->push_back({kind, false, ~child_a, ~child_b});
+    } else {
+      stack_.emplace_back(child_a >= 0 ? child_a : i, child_b >= 0 ? child_b : j);
+    }
+  };
+  const auto each = [](unsigned mask, const auto& visit) {
+    for (; mask != 0; mask &= mask - 1) visit(std::countr_zero(mask));
+  };
   stack_.assign(1, {0, 0});
-  Node alone_a, alone_b;
   while (!stack_.empty()) {
     const auto [i, j] = stack_.back();
     stack_.pop_back();
-    if (i < 0) CopyLane(tree_a.node(~i / kWidth), ~i % kWidth, &alone_a);
-    if (j < 0) CopyLane(tree_b.node(~j / kWidth), ~j % kWidth, &alone_b);
-    const Node& a = i < 0 ? alone_a : tree_a.node(i);
-    const Node& b = j < 0 ? alone_b : tree_b.node(j);
-    std::uint8_t masks[kWidth];
-    MeetingLanes(a, b, b.lane_count, center, radius, masks);
-    for (int k = 0; k < b.lane_count; ++k) {
-      unsigned mask = masks[k] & ((1u << a.lane_count) - 1);
-      for (; mask != 0; mask &= mask - 1) {
-        const int lane = std::countr_zero(mask);
-        const int child_a = a.children[lane], child_b = b.children[k];
-        if (child_a < 0 && child_b < 0) {
-          candidates->push_back({kind, false, ~child_a, ~child_b});
-          continue;
-        }
-        stack_.emplace_back(child_a >= 0 ? child_a
-                            : i < 0      ? i
-                                         : ~(kWidth * i + lane),
-                            child_b >= 0 ? child_b
-                            : j < 0      ? j
-                                         : ~(kWidth * j + k));
-      }
+    const Node& a = tree_a.node(i < 0 ? ~i / kWidth : i);
+    const Node& b = tree_b.node(j < 0 ? ~j / kWidth : j);
+    if (i < 0) {
+      const int lane = ~i % kWidth;
+      each(MeetingLanes(b, LaneOf(a, lane), center, radius),
+           [&, i = i, j = j](int l) { add(a.children[lane], b.children[l], i, lane_name(j, l)); });
+    } else if (j < 0) {
+      const int lane = ~j % kWidth;
+      each(MeetingLanes(a, LaneOf(b, lane), center, radius),
+           [&, i = i, j = j](int k) { add(a.children[k], b.children[lane], lane_name(i, k), j); });
+    } else if (a.all.radius >= b.all.radius) {
+      each(MeetingLanes(a, b.all, center, radius), [&, i = i, j = j](int k) {
+        each(MeetingLanes(b, LaneOf(a, k), center, radius),
+             [&](int l) { add(a.children[k], b.children[l], lane_name(i, k), lane_name(j, l)); });
+      });
+    } else {
+      each(MeetingLanes(b, a.all, center, radius), [&, i = i, j = j](int l) {
+        each(MeetingLanes(a, LaneOf(b, l), center, radius),
+             [&](int k) { add(a.children[k], b.children[l], lane_name(i, k), lane_name(j, l)); });
+      });
     }
   }
 }

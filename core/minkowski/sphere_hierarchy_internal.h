@@ -30,6 +30,12 @@ struct FeatureBound {
   NormalCone cone;
 };
 
+// The same with the cone's angle by cosine and sine; a cosine below -1 for all directions.
+struct LaneBound {
+  double center[3], radius;
+  double axis[3], cosine, sine;
+};
+
 // A tree of such, eight to a node: all of them in lanes.
 class SphereConeTree {
  public:
@@ -39,6 +45,7 @@ class SphereConeTree {
     double axis[3][kWidth], cosine[kWidth], sine[kWidth];
     std::int32_t children[kWidth];  // a node, or ~item
     int lane_count;
+    LaneBound all;  // round all lanes
   };
 
   SphereConeTree() = default;
@@ -68,6 +75,8 @@ class PlacedSphereConeTree {
 
  private:
   void PlaceNode(int i);
+  void PlaceSize(double radius, double cosine, double sine, double* placed_radius,
+                 double* placed_cosine, double* placed_sine) const;
 
   SphereConeTree tree_;
   std::vector<SphereConeTree::Node> placed_;
