@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "touchstone/core/base/dyadic.h"
+#include "touchstone/core/base/exact_pose.h"
 #include "touchstone/core/cd_dual/minkowski_difference.h"
 
 namespace touchstone {
@@ -21,19 +21,17 @@ enum class Body { kP, kQ };
 // the pose came from two world poses: then M is formed as det(Rp) a - adj(Rp)(Rq b + tq - tp)).
 class ExactDifference {
  public:
-  explicit ExactDifference(const MinkowskiDifference& m);
+  explicit ExactDifference(const MinkowskiDifference& m) : m_(m), pose_(m.pose()) {}
 
   DyadicVector Point(VertexPair pair) const;
   // (a_to - a_from) as an edge of M, or -(b_to - b_from) for Q: what M's plane through one sees.
   DyadicVector Edge(Body body, int to, int from) const;
   // The factor by which points are multiplied: divide lengths by it.
-  const Dyadic& factor() const { return factor_; }
+  const Dyadic& factor() const { return pose_.factor(); }
 
  private:
   const MinkowskiDifference& m_;
-  Dyadic factor_;                       // of a
-  std::array<DyadicVector, 3> matrix_;  // rows, of b
-  DyadicVector offset_;
+  ExactPose pose_;
 };
 
 // A plane through three points of M that are not collinear: its normal (w2 - w1) x (w3 - w1),
