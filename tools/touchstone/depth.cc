@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <iostream>
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "touchstone/tools/judged_proximity.h"
-#include "touchstone/tools/numbers.h"
-#include "touchstone/tools/proximity_json.h"
-#include "touchstone/tools/touchstone/body_arguments.h"
+#include "touchstone/tools/touchstone/proximity_output.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 
 namespace touchstone {
@@ -30,21 +25,9 @@ int RunDepth(const Arguments& arguments) {
   const auto query = AskPenetration(
       pair, options, arguments.judge ? ProximityDepth(depth) : std::nullopt, bodies, &memory);
   if (arguments.json) {
-    Json json = DescribeBodies(arguments, pair);
-    json["certainty"] = arguments.certainty;
-    json.update(ToJson(query.result));
-    json["query_ns"] = query.query_ns;
-    if (arguments.judge) {
-      json["judge"] = {{"findings", ToJson(query.findings)},
-                       {"constructed", depth.construct},
-                       {"judge_ns", query.judge_ns}};
-    }
-    std::cout << json.dump(2) << '\n';
+    std::cout << DescribeQuery(arguments, pair, depth, query).dump(2) << '\n';
   } else {
-    PrintBodies(std::cout, arguments, pair);
-    PrintResult(std::cout, query.result);
-    if (arguments.judge) PrintFindings(std::cout, query.findings, depth.construct);
-    PrintTimes(std::cout, query.query_ns, arguments.judge, query.judge_ns);
+    PrintQuery(arguments, pair, depth, query);
   }
   return query.findings.empty() ? kFine : kFindings;
 }

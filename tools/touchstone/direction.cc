@@ -4,10 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "touchstone/tools/judged_proximity.h"
 #include "touchstone/tools/numbers.h"
-#include "touchstone/tools/proximity_json.h"
-#include "touchstone/tools/touchstone/body_arguments.h"
+#include "touchstone/tools/touchstone/proximity_output.h"
 #include "touchstone/tools/touchstone/subcommands.h"
 
 namespace touchstone {
@@ -45,27 +43,16 @@ int RunDirection(const Arguments& arguments) {
   std::optional<Judged<PublishedTravel>> published;
   if (arguments.published) published = AskPublishedDirection(pair, s, query.result);
   if (arguments.json) {
-    Json json = DescribeBodies(arguments, pair);
-    json["certainty"] = arguments.certainty;
+    Json json = DescribeQuery(arguments, pair, depth, query);
     json["along"] = ToJson(s);
-    json.update(ToJson(query.result));
-    json["query_ns"] = query.query_ns;
     if (published) {
       json["published"] = ToJson(published->result);
       json["published"]["findings"] = ToJson(published->findings);
       json["published"]["query_ns"] = published->query_ns;
     }
-    if (arguments.judge) {
-      json["judge"] = {{"findings", ToJson(query.findings)},
-                       {"constructed", depth.construct},
-                       {"judge_ns", query.judge_ns}};
-    }
     std::cout << json.dump(2) << '\n';
   } else {
-    PrintBodies(std::cout, arguments, pair);
-    PrintResult(std::cout, query.result);
-    if (arguments.judge) PrintFindings(std::cout, query.findings, depth.construct);
-    PrintTimes(std::cout, query.query_ns, arguments.judge, query.judge_ns);
+    PrintQuery(arguments, pair, depth, query);
     if (published) {
       PrintResult(std::cout, published->result);
       for (const NamedFinding& finding : published->findings)
