@@ -16,6 +16,11 @@ IntegerMatrix ToInteger(const Eigen::Matrix3d& m, int exponent) {
   return result;
 }
 
+// sum -= a . b.
+void SubtractDot(const IntegerVector& a, const IntegerVector& b, Integer& sum) {
+  for (int k = 0; k < 3; ++k) mpz_submul(sum.get_mpz_t(), a[k].get_mpz_t(), b[k].get_mpz_t());
+}
+
 double MaxAbs(const Eigen::Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
 
 // a / b * 2^exponent to within 2^-51 of itself; zero where that is below 2^-1000.
@@ -40,10 +45,9 @@ PlacedPair::PlacedPair(const ExactBodyData& p, const ExactBodyData& q, const Rel
     SetFromPose(pose);
   }
   exponent_ = p.exponent;
-  scale_real_ = Real(scale_);
-  const IntegerVector placed_q = Multiply(b_, q.interior[interior_q]);
   for (int k = 0; k < 3; ++k) {
-    c_[k] = scale_ * p.interior[interior_p][k] - placed_q[k] - u_[k];
+    c_[k] = scale_ * p.interior[interior_p][k] - u_[k];
+    SubtractDot(b_[k], q.interior[interior_q], c_[k]);
     v_[k] = -c_[k];
   }
   SetDoubles(pose);
@@ -116,16 +120,21 @@ void PlacedPair::SetDoubles(const RelativePose& pose) {
 
 IntegerVector PlacedPair::Difference(const VertexPair& pair) const {
   const IntegerVector& q = pair.q < 0 ? q_.interior[interior_q_] : q_.vertices[pair.q];
-  const IntegerVector placed_q = Multiply(b_, q);
   IntegerVector result;
-  for (int k = 0; k < 3; ++k) result[k] = scale_ * p_.vertices[pair.p][k] - placed_q[k] - u_[k];
+  for (int k = 0; k < 3; ++k) {
+    result[k] = scale_ * p_.vertices[pair.p][k] - u_[k];
+    SubtractDot(b_[k], q, result[k]);
+  }
   return result;
 }
 
 IntegerVector PlacedPair::FromC(const VertexPair& pair) const {
-  IntegerVector result = scale_ * (p_.vertices[pair.p] - p_.interior[interior_p_]);
+  IntegerVector result = p_.vertices[pair.p] - p_.interior[interior_p_];
+  for (Integer& value : result) value *= scale_;
   if (pair.q < 0) return result;
-  return result - Multiply(b_, q_.vertices[pair.q] - q_.interior[interior_q_]);
+  const IntegerVector from_interior = q_.vertices[pair.q] - q_.interior[interior_q_];
+  for (int k = 0; k < 3; ++k) SubtractDot(b_[k], from_interior, result[k]);
+  return result;
 }
 
 IntegerVector PlacedPair::NormalFromQ(const IntegerVector& n) const {

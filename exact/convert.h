@@ -33,6 +33,8 @@ class PlacedPair {
   const ExactBodyData& p() const { return p_; }
   const ExactBodyData& q() const { return q_; }
 
+  // D.
+  const Integer& scale() const { return scale_; }
   const IntegerVector& c() const { return c_; }
   const IntegerVector& v() const { return v_; }
 
@@ -52,9 +54,12 @@ class PlacedPair {
   Integer ValueQ(const IntegerVector& n_in_q, const IntegerVector& n, int b) const;
 
   // True length of an integer length.
-  Real ToLength(const Real& length) const { return Scale(length / scale_real_, exponent_); }
+  template <class Number>
+  Number ToLength(const Number& length) const {
+    return Scale(length / Number(scale_), exponent_);
+  }
   // The other way.
-  Real FromLength(const Real& length) const { return Scale(length * scale_real_, -exponent_); }
+  Real FromLength(const Real& length) const { return Scale(length * Real(scale_), -exponent_); }
   mpq_class ToLengthSquared(const Integer& squared) const;
 
   // Doubles of the placement, in true units: x_p = rotation x_q + translation and c. Every number
@@ -83,7 +88,6 @@ class PlacedPair {
   IntegerVector c_, v_;
   int interior_p_, interior_q_;
   int exponent_ = 0;
-  Real scale_real_;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d translation_, c_double_;
   double error_ = 0.0, size_ = 0.0;

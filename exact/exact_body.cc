@@ -102,6 +102,11 @@ void ExactBodyData::BuildNormals() const {
   }
 }
 
+IntegerVector ExactBodyData::Normal(int f) const {
+  std::array<int, 3> plane;
+  return LoopNormal(*this, face(f), &plane);
+}
+
 void ExactBodyData::BuildEdgeVectors() const {
   for (const ExactEdge& e : topology().edges) {
     edge_vectors_.exact.push_back(vertices[e.head] - vertices[e.tail]);

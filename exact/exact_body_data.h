@@ -54,6 +54,8 @@ struct ExactBodyData {
   const Topology& topology() const;
   const FaceNormals& normals() const;
   const EdgeVectors& edge_vectors() const;
+  // Outward normal of face f, of any length, made anew: where few are needed of many.
+  IntegerVector Normal(int f) const;
   bool InteriorPointIsInterior(int i) const;
 
  private:

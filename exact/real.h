@@ -14,26 +14,16 @@ namespace touchstone::exact {
 class Real {
  public:
   Real() {
-    mpfr_init2(value_, kBits);
-    mpfr_set_zero(value_, 1);
+    mpfr_custom_init(limbs_, kBits);
+    mpfr_custom_init_set(value_, MPFR_ZERO_KIND, 0, kBits, limbs_);
   }
-  explicit Real(double v) {
-    mpfr_init2(value_, kBits);
-    mpfr_set_d(value_, v, MPFR_RNDN);
-  }
-  explicit Real(const Integer& v) {
-    mpfr_init2(value_, kBits);
-    mpfr_set_z(value_, v.get_mpz_t(), MPFR_RNDN);
-  }
-  Real(const Real& o) {
-    mpfr_init2(value_, kBits);
-    mpfr_set(value_, o.value_, MPFR_RNDN);
-  }
+  explicit Real(double v) : Real() { mpfr_set_d(value_, v, MPFR_RNDN); }
+  explicit Real(const Integer& v) : Real() { mpfr_set_z(value_, v.get_mpz_t(), MPFR_RNDN); }
+  Real(const Real& o) : Real() { mpfr_set(value_, o.value_, MPFR_RNDN); }
   Real& operator=(const Real& o) {
     mpfr_set(value_, o.value_, MPFR_RNDN);
     return *this;
   }
-  ~Real() { mpfr_clear(value_); }
 
   friend Real operator+(const Real& a, const Real& b) {
     Real r;
@@ -83,6 +73,7 @@ class Real {
  private:
   static constexpr int kBits = 256;
   mpfr_t value_;
+  mp_limb_t limbs_[kBits / GMP_NUMB_BITS];  // the significand: nothing is on the heap
 };
 
 }  // namespace touchstone::exact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "touchstone/exact/support.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace touchstone::exact {
@@ -25,6 +26,15 @@ void Candidates(const ExactBodyData& body, const IntegerVector& n, std::vector<i
   for (int i = 0; i < count; ++i) {
     if (value[i] >= largest - error) candidates->push_back(i);
   }
+}
+
+// Edges of P and of Q, each in its own frame. Doubles first: components of both are off by 2u of
+// themselves and at most 1, entries of the rotation by 4u and below 2, so that components of the
+// turned edge are below 6 and off by 9u 6; of the cross product by 2 (54 + 12 + 6)u + 12u < 2^-45.
+bool AreParallel(const PlacedPair& pair, const IntegerVector& edge_p, const IntegerVector& edge_q) {
+  const Eigen::Vector3d turned = pair.rotation() * ToDirection(edge_q);
+  if (ToDirection(edge_p).cross(turned).cwiseAbs().maxCoeff() > 0x1p-44) return false;
+  return IsZero(Cross(edge_p, pair.VectorFromQ(edge_q)));
 }
 
 }  // namespace
@@ -86,9 +96,8 @@ std::optional<FaceClass> ClassOf(const PlacedPair& pair, const SupportingFeature
   if (dimension_q == 2) return dimension_p == 0 ? FaceClass::kVertexFace : FaceClass::kEdgeFace;
   if (dimension_p == 0 || dimension_q == 0) return std::nullopt;
   const IntegerVector edge_p = pair.p().vertices[features.p[1]] - pair.p().vertices[features.p[0]];
-  const IntegerVector edge_q =
-      pair.VectorFromQ(pair.q().vertices[features.q[1]] - pair.q().vertices[features.q[0]]);
-  if (IsZero(Cross(edge_p, edge_q))) return std::nullopt;
+  const IntegerVector edge_q = pair.q().vertices[features.q[1]] - pair.q().vertices[features.q[0]];
+  if (AreParallel(pair, edge_p, edge_q)) return std::nullopt;
   return FaceClass::kEdgeEdge;
 }
 

@@ -4,14 +4,28 @@
 #include <climits>
 #include <cmath>
 
+#include "touchstone/exact/faces_internal.h"
 #include "touchstone/exact/judge/checks.h"
-#include "touchstone/exact/support.h"
 
 namespace touchstone::exact {
 namespace {
 
+// Whether doubles prove that the direction separates: max over P of n.p < min over Q of n.q, by
+// more than the error of both values and of n.t.
+bool SeparatesInDoubles(const PlacedPair& pair, const Eigen::Vector3d& direction) {
+  const double largest = direction.cwiseAbs().maxCoeff();
+  if (!(largest > 0x1p-1000 && pair.error() > 0x1p-900)) return false;
+  const Eigen::Vector3d n = direction / largest;  // off by half an ulp of itself
+  const double most_p = Largest(pair.p(), n);
+  const double least_q = -Largest(pair.q(), -(pair.rotation().transpose() * n));
+  return most_p - least_q - n.dot(pair.translation()) < -4 * pair.error();
+}
+
 // max over P of n.p < min over Q of n.q, for a direction in P's frame.
-const char* CheckSeparation(const PlacedPair& pair, const IntegerVector& n) {
+const char* CheckDirection(const PlacedPair& pair, const Eigen::Vector3d& direction) {
+  if (!direction.allFinite()) return "the direction is not finite";
+  if (SeparatesInDoubles(pair, direction)) return nullptr;
+  const IntegerVector n = ToInteger(direction, CommonExponent(direction.data(), 3, INT_MAX));
   if (IsZero(n)) return "the direction is zero";
   const IntegerVector n_in_q = pair.ToQ(n);
   const Integer most_p = pair.ValueP(n, ExtremeVertex(pair.p(), n));
@@ -19,40 +33,42 @@ const char* CheckSeparation(const PlacedPair& pair, const IntegerVector& n) {
   return most_p < least_q ? nullptr : "the direction does not separate";
 }
 
-const char* CheckDirection(const PlacedPair& pair, const Eigen::Vector3d& direction) {
-  if (!direction.allFinite()) return "the direction is not finite";
-  const int exponent = CommonExponent(direction.data(), 3, INT_MAX);
-  return CheckSeparation(pair, ToInteger(direction, exponent));
+// max over M of n.(x - c) for the triangle's normal n.
+Integer MostAlong(const JudgeContext& context, const NamedTriangle& triangle) {
+  const SupportingFeatures& supporting = context.SupportingTriangle();
+  return Dot(triangle.normal, context.pair.FromC({supporting.p[0], supporting.q[0]}));
+}
+
+// n.x < n.o for all x of M, that is, less c, n.x < n.v.
+const char* CheckSeparatingFacet(const JudgeContext& context, const NamedTriangle& triangle) {
+  if (IsZero(triangle.normal)) return "the direction is zero";
+  return MostAlong(context, triangle) < triangle.ratio.numerator
+             ? nullptr
+             : "the direction does not separate";
 }
 
 // o - c = v = sum li ai with ai = vi - c: Cramer's rule, all signs relative to that of det [a1 a2
-// a3].
-const char* CheckTetrahedron(const PlacedPair& pair, const std::array<VertexPair, 3>& points) {
-  const IntegerVector a = pair.FromC(points[0]), b = pair.FromC(points[1]),
-                      c = pair.FromC(points[2]);
-  const IntegerVector ab = Cross(a, b);
-  const Integer volume = Dot(ab, c);
-  const int sign = sgn(volume);
+// a3], which is the ratio's denominator.
+const char* CheckTetrahedron(const NamedTriangle& triangle) {
+  const int sign = sgn(triangle.ratio.denominator);
   if (sign == 0) return "the tetrahedron is flat";
-  const Integer la = Determinant(pair.v(), b, c), lb = Determinant(pair.v(), c, a),
-                lc = Dot(pair.v(), ab);
-  if (sgn(la) * sign < 0 || sgn(lb) * sign < 0 || sgn(lc) * sign < 0) {
-    return "o is outside the tetrahedron";
+  for (const int side : triangle.sides) {
+    if (side * sign < 0) return "o is outside the tetrahedron";
   }
-  const Integer l0 = volume - la - lb - lc;
-  return sgn(l0) * sign > 0 ? nullptr : "o is not on c's side of the tetrahedron's far face";
+  return cmp(triangle.ratio.denominator, triangle.ratio.numerator) * sign > 0
+             ? nullptr
+             : "o is not on c's side of the tetrahedron's far face";
 }
 
-const char* CheckTouch(const PlacedPair& pair, const std::array<VertexPair, 3>& points) {
-  const IntegerVector a = pair.Difference(points[0]), b = pair.Difference(points[1]),
-                      c = pair.Difference(points[2]);
-  const IntegerVector n = Cross(b - a, c - a);
-  if (IsZero(n)) return "the three points are collinear";
-  if (DotSign(n, a) != 0) return "o is off the plane";
-  const VertexPair extreme = SupportingPair(pair, n);
-  if (DotSign(n, pair.Difference(extreme)) > 0) return "the plane does not support M";
-  if (DotSign(n, Cross(a, b)) < 0 || DotSign(n, Cross(b, c)) < 0 || DotSign(n, Cross(c, a)) < 0) {
-    return "o is outside the triangle";
+const char* CheckTouch(const JudgeContext& context, const NamedTriangle& triangle) {
+  if (IsZero(triangle.normal)) return "the three points are collinear";
+  if (triangle.ratio.numerator != triangle.ratio.denominator) return "o is off the plane";
+  if (MostAlong(context, triangle) > triangle.ratio.denominator)
+    return "the plane does not support M";
+  // o is in the plane, which c is strictly below as it supports M: v = sum li ai with li summing to
+  // 1 and of the signs of the sides.
+  for (const int side : triangle.sides) {
+    if (side < 0) return "o is outside the triangle";
   }
   return nullptr;
 }
@@ -74,23 +90,21 @@ Verdict ProvenBy(CertificateKind kind) {
 }
 
 // Why the certificate proves nothing; null if it holds.
-const char* Refute(const PlacedPair& pair, const Certificate& certificate) {
-  const std::array<VertexPair, 3>& points = certificate.points;
+const char* Refute(const JudgeContext& context, const Certificate& certificate) {
+  const PlacedPair& pair = context.pair;
   switch (certificate.kind) {
     case CertificateKind::kNone:
       return "absent";
     case CertificateKind::kSeparatingDirection:
       return CheckDirection(pair, certificate.direction);
-    case CertificateKind::kSeparatingFacet: {
-      const IntegerVector a = pair.FromC(points[0]);
-      return CheckSeparation(pair, Cross(pair.FromC(points[1]) - a, pair.FromC(points[2]) - a));
-    }
+    case CertificateKind::kSeparatingFacet:
+      return CheckSeparatingFacet(context, context.Triangle(certificate.points));
     case CertificateKind::kEnclosingTetrahedron:
-      return CheckTetrahedron(pair, points);
+      return CheckTetrahedron(context.Triangle(certificate.points));
     case CertificateKind::kCoincidentInterior:
       return IsZero(pair.c()) ? nullptr : "c is not o";
     case CertificateKind::kTouchingFacet:
-      return CheckTouch(pair, points);
+      return CheckTouch(context, context.Triangle(certificate.points));
   }
   return "of no known kind";
 }
@@ -106,14 +120,14 @@ bool CheckCertificate(const JudgeContext& context) {
     }
     return false;
   }
-  const std::string kind(ToString(certificate.kind));
+  const auto kind = [&] { return std::string(ToString(certificate.kind)); };
   if (ProvenBy(certificate.kind) != verdict) {
     context.Add(FindingKind::kBadCertificate,
-                kind + " does not fit the verdict " + std::string(ToString(verdict)));
+                kind() + " does not fit the verdict " + std::string(ToString(verdict)));
     return false;
   }
-  if (const char* reason = Refute(context.pair, certificate); reason != nullptr) {
-    context.Add(FindingKind::kBadCertificate, kind + ": " + reason);
+  if (const char* reason = Refute(context, certificate); reason != nullptr) {
+    context.Add(FindingKind::kBadCertificate, kind() + ": " + reason);
     return false;
   }
   return true;

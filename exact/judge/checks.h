@@ -11,6 +11,7 @@
 #include "touchstone/exact/convert.h"
 #include "touchstone/exact/decide.h"
 #include "touchstone/exact/judge.h"
+#include "touchstone/exact/support.h"
 
 namespace touchstone::exact {
 
@@ -19,6 +20,19 @@ struct NamedFace {
   IntegerVector normal;  // outward
   Ratio ratio;           // 1 + d |c| = 1/s of its plane
   bool crossed = false;  // the ray crosses the closed triangle: hence it is the exit face
+};
+
+// Three points of M and what follows from them exactly: what a certificate and the exit face, which
+// often name the same three, are both held to.
+struct NamedTriangle {
+  std::array<VertexPair, 3> pairs;
+  std::array<IntegerVector, 3> points;  // less c
+  IntegerVector normal;                 // zero for collinear points
+  // normal.v over normal.point = det [points]: 1/s of the plane, and Cramer's determinants of v in
+  // the points sum to the numerator.
+  Ratio ratio;
+  // sign(det [v points[i] points[i + 1]]): on which side of the plane through c and the two.
+  std::array<int, 3> sides;
 };
 
 class JudgeContext {
@@ -43,6 +57,10 @@ class JudgeContext {
     return p_.InteriorPointIsInterior(result.interior_p) &&
            q_.InteriorPointIsInterior(result.interior_q);
   }
+  // Remembers the last; valid until the next call.
+  const NamedTriangle& Triangle(const std::array<VertexPair, 3>& pairs) const;
+  // What supports M along the last triangle's normal, which must not be zero.
+  const SupportingFeatures& SupportingTriangle() const;
   // The truth, from scratch; computed when first asked for.
   const ExactDecision& Decision() const;
   // 1/s of the true exit: from a face proven to be crossed, or from Decision(). Requires c != o.
@@ -59,6 +77,8 @@ class JudgeContext {
   const RelativePose& pose_;
   std::vector<Finding>* findings_;
   mutable std::optional<ExactDecision> decision_;
+  mutable std::optional<NamedTriangle> triangle_;
+  mutable std::optional<SupportingFeatures> supporting_;
 };
 
 // 0, 1, 2; the vertices of a feature, a face's in loop order; whether all of `some` are in

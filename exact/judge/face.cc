@@ -133,30 +133,25 @@ void CheckClass(const JudgeContext& context, const SupportingFeatures& supportin
 
 void CheckFace(JudgeContext* context) {
   if (!context->result.face.has_value()) return;
-  const PlacedPair& pair = context->pair;
   const ExitFace& face = *context->result.face;
-  std::array<IntegerVector, 3> a;
-  for (int i = 0; i < 3; ++i) a[i] = pair.FromC(face.triangle[i]);
-  NamedFace named;
-  named.normal = Cross(a[1] - a[0], a[2] - a[0]);
-  if (IsZero(named.normal)) {
+  const NamedTriangle& triangle = context->Triangle(face.triangle);
+  if (IsZero(triangle.normal)) {
     return context->Add(FindingKind::kNotAFace, "the three points are collinear");
   }
-  named.ratio = {Dot(named.normal, pair.v()), Dot(named.normal, a[0])};
-  if (sgn(named.ratio.denominator) <= 0) {
+  if (sgn(triangle.ratio.denominator) <= 0) {
     return context->Add(FindingKind::kNotAFace, "the three points run clockwise seen from outside");
   }
-  const SupportingFeatures supporting = Supporting(pair, named.normal);
+  const SupportingFeatures& supporting = context->SupportingTriangle();
   for (const VertexPair& point : face.triangle) {
     if (!std::binary_search(supporting.p.begin(), supporting.p.end(), point.p) ||
         !std::binary_search(supporting.q.begin(), supporting.q.end(), point.q)) {
       return context->Add(FindingKind::kNotAFace, "the plane does not support M");
     }
   }
-  named.crossed = sgn(named.ratio.numerator) > 0;
-  for (int i = 0; i < 3 && named.crossed; ++i) {
-    named.crossed = sgn(Determinant(pair.v(), a[i], a[(i + 1) % 3])) >= 0;
-  }
+  NamedFace named{triangle.normal, triangle.ratio};
+  named.crossed =
+      sgn(named.ratio.numerator) > 0 &&
+      std::all_of(triangle.sides.begin(), triangle.sides.end(), [](int side) { return side >= 0; });
   context->face = named;
   if (!named.crossed) {
     // As printed, the paper's search may stop at any face with d > 0.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "touchstone/exact/judge.h"
 
+#include <Eigen/Geometry>
+
 #include "touchstone/exact/judge/checks.h"
 
 namespace touchstone::exact {
@@ -26,6 +28,26 @@ bool FeatureInRange(const Feature& feature, const ExactBodyData& body) {
       return InRange(feature.index, body.face_count);
   }
   return false;
+}
+
+// sign(det [v a b]) for the sides a, b of a triangle. Doubles first: v, a and b are scaled to at
+// most 1, their components off by 2u of themselves, u = 2^-53; each of six products has three
+// factors and at most five roundings, sums included: 6 (6 + 5)u < 2^-46, doubled for other rounding
+// modes.
+std::array<int, 3> SidesOf(const IntegerVector& v, const std::array<IntegerVector, 3>& points) {
+  constexpr double kError = 0x1p-45;
+  const Eigen::Vector3d ray = ToDirection(v);
+  std::array<Eigen::Vector3d, 3> a;
+  for (int i = 0; i < 3; ++i) a[i] = ToDirection(points[i]);
+  std::array<int, 3> sides;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double value = ray.dot(a[i].cross(a[j]));
+    sides[i] = value > kError    ? 1
+               : value < -kError ? -1
+                                 : sgn(Determinant(v, points[i], points[j]));
+  }
+  return sides;
 }
 
 }  // namespace
@@ -58,6 +80,23 @@ std::string_view ToString(FindingKind kind) {
       return "missing_part";
   }
   return "?";
+}
+
+const NamedTriangle& JudgeContext::Triangle(const std::array<VertexPair, 3>& pairs) const {
+  if (triangle_.has_value() && triangle_->pairs == pairs) return *triangle_;
+  NamedTriangle& t = triangle_.emplace();
+  t.pairs = pairs;
+  for (int i = 0; i < 3; ++i) t.points[i] = pair.FromC(pairs[i]);
+  t.normal = Cross(t.points[1] - t.points[0], t.points[2] - t.points[0]);
+  t.ratio = {Dot(t.normal, pair.v()), Dot(t.normal, t.points[0])};
+  t.sides = SidesOf(pair.v(), t.points);
+  supporting_.reset();
+  return t;
+}
+
+const SupportingFeatures& JudgeContext::SupportingTriangle() const {
+  if (!supporting_.has_value()) supporting_ = Supporting(pair, triangle_->normal);
+  return *supporting_;
 }
 
 const ExactDecision& JudgeContext::Decision() const {

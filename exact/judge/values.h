@@ -50,7 +50,14 @@ inline constexpr double kConditionFactor = 64.0;
 inline constexpr double kErrorFactor = 1e-12;
 
 // Requires that the ray meets the plane (ratio > 0).
-Amplifications AmplificationsAt(const ExitValues& values, double size);
+template <class Number>
+Amplifications AmplificationsAt(const ExitValuesOf<Number>& values, double size) {
+  const Number one(1.0), s = values.parameter, length = values.interior_distance;
+  const Number g = Number(size) * (one + s) / values.normal_cosine;
+  const Number d =
+      g / (s * s * length * length) + Abs(values.signed_distance) * Number(size) / length;
+  return {d.ToDouble(), g.ToDouble()};
+}
 
 }  // namespace touchstone::exact
 

@@ -44,7 +44,7 @@ struct CampaignFinding {
 // What became of a batch. All of it but the time is a function of plan and batch alone.
 struct BatchResult {
   Batch batch;
-  double seconds = 0.0;
+  double seconds = 0.0;  // of a processor
   Tally tally;
   std::vector<CampaignFinding> findings;
 };
