@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "touchstone/exact/mesh_membership.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,6 +27,12 @@ struct Corner {
 using Corners = std::array<Corner, 3>;
 
 double MaxAbs(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
+
+// u . (v x w), a sum of six products of three numbers.
+double Triple(const Vector3d& u, const Vector3d& v, const Vector3d& w) {
+  return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+         u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
 
 // value * 2^exponent, off by 2^-50 of itself.
 double ToDouble(const mpq_class& value, int exponent) {
@@ -96,8 +103,7 @@ class Placed {
   int Side(const Corner& a, const Corner& b, const Corner& c, const Corner& d) const {
     const Vector3d o = Double(a);
     const Vector3d u = Double(b) - o, v = Double(c) - o, w = Double(d) - o;
-    const double value = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-                         u[2] * (v[0] * w[1] - v[1] * w[0]);
+    const double value = Triple(u, v, w);
     const double e = 2.0 * error_;
     const double lu = MaxAbs(u) + e, lv = MaxAbs(v) + e, lw = MaxAbs(w) + e;
     const double bound =
@@ -151,6 +157,7 @@ class Query {
 
   Meeting Meet(int f, int g) const {
     const Corners t = placed_.corners(Body::kA, f), u = placed_.corners(Body::kB, g);
+    if (AreClearlyApart(t, u)) return Meeting::kNone;
     std::array<int, 3> of_t, of_u;
     for (int k = 0; k < 3; ++k) of_u[k] = placed_.Side(t[0], t[1], t[2], u[k]);
     if (OnOneSide(of_u)) return Meeting::kNone;
@@ -159,6 +166,44 @@ class Query {
     if (Pierces(t, u, of_u) || Pierces(u, t, of_t)) return Meeting::kCross;
     return Share(placed_.Triangle(Body::kA, f), placed_.Triangle(Body::kB, g)) ? Meeting::kShare
                                                                                : Meeting::kNone;
+  }
+
+  // Whether a plane strictly between the triangles is found in doubles, of those along a side of
+  // each, or two sides of one, or square to a triangle along a side of it. Any direction will do:
+  // a point's height along it is off by the point's error() in each coordinate, and three roundings
+  // of each product.
+  bool AreClearlyApart(const Corners& t, const Corners& u) const {
+    const Vector3d o = placed_.Double(t[0]);
+    std::array<Vector3d, 3> p, q, sides_t, sides_u;
+    for (int k = 0; k < 3; ++k) p[k] = placed_.Double(t[k]) - o, q[k] = placed_.Double(u[k]) - o;
+    double size = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      sides_t[k] = p[(k + 1) % 3] - p[k];
+      sides_u[k] = q[(k + 1) % 3] - q[k];
+      size = std::max({size, MaxAbs(p[k]), MaxAbs(q[k])});
+    }
+    const double error = 1.1 * (2.0 * placed_.error() + 8.0 * 0x1p-52 * size);
+    const auto parts = [&](const Vector3d& normal) {
+      double least_t = normal.dot(p[0]), greatest_t = least_t;
+      double least_u = normal.dot(q[0]), greatest_u = least_u;
+      for (int k = 1; k < 3; ++k) {
+        const double x = normal.dot(p[k]), y = normal.dot(q[k]);
+        least_t = std::min(least_t, x), greatest_t = std::max(greatest_t, x);
+        least_u = std::min(least_u, y), greatest_u = std::max(greatest_u, y);
+      }
+      const double bound = 2.0 * normal.cwiseAbs().sum() * error + 1e-320;
+      return least_u - greatest_t > bound || least_t - greatest_u > bound;
+    };
+    const Vector3d normal_t = sides_t[0].cross(sides_t[1]);
+    const Vector3d normal_u = sides_u[0].cross(sides_u[1]);
+    if (parts(normal_t) || parts(normal_u)) return true;
+    for (int k = 0; k < 3; ++k) {
+      if (parts(normal_t.cross(sides_t[k])) || parts(normal_u.cross(sides_u[k]))) return true;
+      for (const Vector3d& side : sides_u) {
+        if (parts(sides_t[k].cross(side))) return true;
+      }
+    }
+    return false;
   }
 
   // Whether an edge of u, its corners on these sides of t's plane, passes strictly through t. Then
@@ -253,9 +298,15 @@ class Query {
       const RationalPoint direction = {mpq_class(1), mpq_class(attempt, 1 << 20),
                                        mpq_class(attempt * attempt, 1 << 20)};
       const double drift = size * attempt * attempt * 0x1p-20 + 4.0 * placed_.error();
+      const Vector3d along(1.0, direction[1].get_d(), direction[2].get_d());  // exactly
       bool inside = false, is_clear = true;
       for (int f = 0; f < placed_.mesh(solid).face_count() && is_clear; ++f) {
         if (!IsNearRay(solid, f, at, drift)) continue;
+        const RayMeeting meeting = TriageRay(solid, f, at, along);
+        if (meeting != RayMeeting::kUnsure) {
+          inside ^= meeting == RayMeeting::kCrosses;
+          continue;
+        }
         const RationalTriangle t = placed_.Triangle(solid, f);
         const auto& [a, b, c] = t.corners();
         const RationalPoint u = a - x, v = b - x, w = c - x;
@@ -269,6 +320,39 @@ class Query {
       }
       if (is_clear) return inside;
     }
+  }
+
+  enum class RayMeeting { kMisses, kCrosses, kUnsure };
+
+  // The same in doubles. Corners less `at` are off by 2 error() and one rounding each. The line's
+  // side of an edge is the sum of six products of `along` and two of these; the three sides add up
+  // to normal . along, and the determinant of the three corners is normal . u.
+  RayMeeting TriageRay(Body solid, int f, const Vector3d& at, const Vector3d& along) const {
+    const Corners corners = placed_.corners(solid, f);
+    const Vector3d from_x[3] = {placed_.Double(corners[0]) - at, placed_.Double(corners[1]) - at,
+                                placed_.Double(corners[2]) - at};
+    const double e = 2.0 * placed_.error(), unit = 60.0 * 0x1p-52;
+    const double size[3] = {MaxAbs(from_x[0]) + e, MaxAbs(from_x[1]) + e, MaxAbs(from_x[2]) + e};
+    const double l = MaxAbs(along);
+    int least = 1, greatest = -1;
+    for (int k = 0; k < 3; ++k) {
+      const int next = (k + 1) % 3;
+      const double side = Triple(along, from_x[k], from_x[next]);
+      const double bound =
+          1.1 * l * (6.0 * e * (size[k] + size[next]) + unit * size[k] * size[next]) + 1e-320;
+      const int sign = side > bound ? 1 : side < -bound ? -1 : 0;
+      if (sign == 0) return RayMeeting::kUnsure;
+      least = std::min(least, sign);
+      greatest = std::max(greatest, sign);
+    }
+    if (least != greatest) return RayMeeting::kMisses;
+    const double height = Triple(from_x[0], from_x[1], from_x[2]);
+    const double bound =
+        1.1 * (6.0 * e * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]) +
+               unit * size[0] * size[1] * size[2]) +
+        1e-320;
+    if (!(std::abs(height) > bound)) return RayMeeting::kUnsure;
+    return (height > 0.0) == (least > 0) ? RayMeeting::kCrosses : RayMeeting::kMisses;
   }
 
   // Whether the face's box comes within `drift` of the ray from `at` along x.

@@ -20,6 +20,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::uint64_t kPlacementsOfAPair = 48;
+constexpr std::uint64_t kPlacementsOfALine = 4;
 constexpr std::size_t kSamples = 5;
 constexpr std::array<int, 3> kFaceCounts = {24, 50, 100};
 
@@ -122,19 +123,29 @@ class PlacedBodies {
     return x;
   }
 
-  // From a line's last point inside that doubles know of, as they halve it towards the outside.
+  // Near the end of M° on a line, several times on the same one.
   Vector3d Near() {
-    Vector3d inside = RandomPoint(), outside = RandomPoint();
-    for (int k = 0; k < 20 && !Overlaps(inside); ++k) inside = RandomPoint();
-    for (int k = 0; k < 20 && Overlaps(outside); ++k) outside = RandomPoint();
-    for (int k = 0; k < 60; ++k) {
-      const Vector3d middle = 0.5 * (inside + outside);
-      (Overlaps(middle) ? inside : outside) = middle;
+    if (near_left_ == 0) {
+      FindContact();
+      near_left_ = kPlacementsOfALine;
     }
+    --near_left_;
     const double size = (high_ - low_).maxCoeff();
     const double travel = size * std::ldexp(1.0, -random_.Integer(10, 53));
-    const Vector3d x = random_.OneIn(2) ? inside : outside;
+    const Vector3d x = random_.OneIn(2) ? inside_ : outside_;
     return random_.OneIn(3) ? x : Vector3d(x + travel * random_.SpherePoint());
+  }
+
+  // Two points a rounding apart, the first in M° and the second not, by halving a line.
+  void FindContact() {
+    inside_ = RandomPoint(), outside_ = RandomPoint();
+    for (int k = 0; k < 20 && !Overlaps(inside_); ++k) inside_ = RandomPoint();
+    for (int k = 0; k < 20 && Overlaps(outside_); ++k) outside_ = RandomPoint();
+    for (int k = 0; k < 60; ++k) {
+      const Vector3d middle = 0.5 * (inside_ + outside_);
+      if (middle == inside_ || middle == outside_) return;
+      (Overlaps(middle) ? inside_ : outside_) = middle;
+    }
   }
 
   bool Overlaps(const Vector3d& x) {
@@ -148,6 +159,8 @@ class PlacedBodies {
   std::unique_ptr<exact::PlacedMeshPair> exact_;
   MembershipCache cache_;
   Vector3d low_, high_;
+  Vector3d inside_, outside_;    // where contact begins or ends
+  std::uint64_t near_left_ = 0;  // placements to come there
 };
 
 }  // namespace
@@ -165,7 +178,8 @@ std::string_view ToString(MembershipPlacement placement) {
 }
 
 std::array<MembershipStats, kMembershipPlacementCount> RunMembershipPlacements(
-    const MembershipRunOptions& options, const std::function<void(double)>& report) {
+    const MembershipRunOptions& options,
+    const std::function<void(const MembershipProgress&)>& report) {
   std::array<MembershipStats, kMembershipPlacementCount> stats;
   Bodies bodies;
   const std::uint64_t end = options.first + options.count;
@@ -178,10 +192,13 @@ std::array<MembershipStats, kMembershipPlacementCount> RunMembershipPlacements(
       const std::uint64_t index = group * kPlacementsOfAPair + k;
       if (index >= options.first && index < end) placed.Ask(x, &own);
     }
-    if (report) {
-      report(static_cast<double>((group + 1) * kPlacementsOfAPair - options.first) /
-             static_cast<double>(options.count));
+    if (!report) continue;
+    MembershipProgress progress{0, options.count, 0};
+    for (const MembershipStats& each : stats) {
+      progress.placements += each.placements;
+      progress.wrong += each.wrong + each.wrong_in_doubles;
     }
+    report(progress);
   }
   return stats;
 }

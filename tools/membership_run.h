@@ -35,12 +35,18 @@ struct MembershipRunOptions {
   std::uint64_t seed = 1, first = 0, count = 0;
 };
 
+// How many placements of how many are judged, and how many answers were wrong.
+struct MembershipProgress {
+  std::uint64_t placements = 0, count = 0, wrong = 0;
+};
+
 // Asks the core where B stands, with certainty and in doubles alone, and holds both against the
 // exact half. Placement i is the same on every machine, whatever the range: a run can be made in
 // pieces, and counts add up. Pairs of all shapes with up to about 100 faces, some with B in two
-// sizes.
+// sizes. Reports after each pair, 48 placements.
 std::array<MembershipStats, kMembershipPlacementCount> RunMembershipPlacements(
-    const MembershipRunOptions& options, const std::function<void(double)>& report);
+    const MembershipRunOptions& options,
+    const std::function<void(const MembershipProgress&)>& report);
 
 }  // namespace touchstone
 

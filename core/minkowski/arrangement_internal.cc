@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "touchstone/core/mesh/box_tree.h"
 #include "touchstone/core/minkowski/box_lanes_internal.h"
@@ -22,6 +24,64 @@ using Sides = std::array<signed char, 4>;
 struct Trace {
   int from, to;     // points
   bool is_on_edge;  // along an edge of the facet, rather than through its inside
+};
+
+// Facets' planes and corners side by side, for a first look at many pairs.
+class FacetTriage {
+ public:
+  // With n, o and x the roundings of a plane's normal and origin and of a corner, S the sum of n's
+  // coordinates and L the largest coordinate of any corner, in size: n.(x - o) is off by at most
+  // 3 e_n (2 L + 2 e) + 2 e S where no normal is off by more than e_n, nor a corner by more than e;
+  // and n.x - n.o is rounded along paths of three, three and one operations, by (3 + 3 + 2) S L
+  // units.
+  FacetTriage(const SumGeometry& geometry, std::span<const ArrangedFacet> facets) {
+    double largest = 0.0, error = 0.0;
+    for (const ArrangedFacet& f : facets) {
+      for (const int corner : f.corners) {
+        const SumPoint& point = geometry.point(corner);
+        largest = std::max(largest, point.rounded.cwiseAbs().maxCoeff());
+        error = std::max(error, point.error);
+      }
+    }
+    entries_.reserve(facets.size());
+    for (const ArrangedFacet& f : facets) {
+      const SumPlane& plane = geometry.plane(f.plane);
+      const double sum = plane.normal.cwiseAbs().sum();
+      Entry& entry = entries_.emplace_back();
+      entry.normal = plane.normal;
+      entry.offset = plane.normal.dot(plane.origin);
+      entry.bound = 1.01 * (6.0 * plane.normal_error * (largest + error) + 2.0 * error * sum +
+                            8.1 * kUnit * sum * largest) +
+                    0x1p-1000;
+      for (int k = 0; k < 4; ++k) {
+        const Vector3d& x = geometry.point(f.corners[k]).rounded;
+        for (int i = 0; i < 3; ++i) entry.corners[i][k] = x[i];
+      }
+    }
+  }
+
+  // Whether all corners of facet g lie strictly on one side of f's plane; false if doubles cannot
+  // tell.
+  bool IsClear(int f, int g) const {
+    const Entry& plane = entries_[f];
+    const auto& x = entries_[g].corners;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int k = 0; k < 4; ++k) {
+      const double height = plane.normal[0] * x[0][k] + plane.normal[1] * x[1][k] +
+                            plane.normal[2] * x[2][k] - plane.offset;
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+    return low > plane.bound || high < -plane.bound;
+  }
+
+ private:
+  struct Entry {
+    Vector3d normal;
+    double offset, bound;
+    double corners[3][4];
+  };
+  std::vector<Entry> entries_;
 };
 
 class Arranger {
@@ -45,8 +105,10 @@ class Arranger {
     FormGroups();
     AddEdges();
     for (const CrossingPair& pair : crossing_) AddCrossing(pair);
-    for (Group& group : result_.groups) CutWalls(group);
-    result_.representative = FindEqualPoints(&geometry_, result_.segments);
+    ListWalls();
+    for (const Group& group : result_.groups) CutWalls(group);
+    ListPoints();
+    result_.representative = FindEqualPoints(&geometry_, result_.points_of_segments);
     for (Segment& segment : result_.segments) SortPoints(&segment);
     return std::move(result_);
   }
@@ -56,13 +118,18 @@ class Arranger {
     int f, g;
     Sides of_f, of_g;
   };
+  struct GroupWall {
+    int group;
+    Wall wall;
+  };
+  struct Cut {
+    int segment, point;
+  };
 
   const ArrangedFacet& facet(int f) const { return result_.facets[f]; }
+  int group_count() const { return static_cast<int>(result_.groups.size()); }
   bool IsActive(int f) const { return is_active_.empty() || is_active_[f] != 0; }
-  bool IsActive(const Group& group) const {
-    return std::any_of(group.facets.begin(), group.facets.end(),
-                       [&](int f) { return IsActive(f); });
-  }
+  bool GroupIsActive(int group) const { return group_is_active_[group] != 0; }
 
   // Pairs of facets that are not clear of each other's planes; coplanar ones are united.
   void FindCrossingPairs() {
@@ -83,9 +150,13 @@ class Arranger {
     } else {
       FindNearActive(boxes, &near);
     }
+    result_.box_pairs = static_cast<long>(near.size());
+    const FacetTriage triage(geometry_, result_.facets);
+    std::erase_if(near, [&](const auto& pair) {
+      return triage.IsClear(pair.first, pair.second) || triage.IsClear(pair.second, pair.first);
+    });
     // In a fixed order, however they were found: facets come sorted.
     std::sort(near.begin(), near.end());
-    result_.box_pairs = static_cast<long>(near.size());
     for (const auto& [f, g] : near) ClassifyPair(f, g);
   }
 
@@ -150,39 +221,73 @@ class Arranger {
   }
 
   void FormGroups() {
-    std::unordered_map<int, int> group_of_root;
-    group_of_facet_.resize(result_.facets.size());
-    for (std::size_t f = 0; f < result_.facets.size(); ++f) {
-      const int root = geometry_.Root(facet(static_cast<int>(f)).plane);
-      const auto [place, added] =
-          group_of_root.try_emplace(root, static_cast<int>(result_.groups.size()));
-      if (added) result_.groups.push_back({root, {}, {}});
-      result_.groups[place->second].facets.push_back(static_cast<int>(f));
-      group_of_facet_[f] = place->second;
+    // Facets' planes come first, so that their roots are below the number of facets.
+    std::vector<int> group_of_root(result_.facets.size(), -1);
+    group_of_facet_.reserve(result_.facets.size());
+    for (const ArrangedFacet& f : result_.facets) {
+      const int root = geometry_.Root(f.plane);
+      if (group_of_root[root] < 0) {
+        group_of_root[root] = group_count();
+        result_.groups.push_back({root, {}, {}});
+      }
+      group_of_facet_.push_back(group_of_root[root]);
+    }
+    const auto facets = ListByOwner<int>(group_count(), [&](const auto& visit) {
+      for (int f = 0; f < static_cast<int>(group_of_facet_.size()); ++f) {
+        visit(group_of_facet_[f], f);
+      }
+    });
+    result_.facets_of_groups = facets.items;
+    group_is_active_.assign(result_.groups.size(), 0);
+    for (int g = 0; g < group_count(); ++g) {
+      Group& group = result_.groups[g];
+      group.facets = std::span(result_.facets_of_groups)
+                         .subspan(facets.first[g], facets.first[g + 1] - facets.first[g]);
+      for (const int f : group.facets) group_is_active_[g] |= IsActive(f);
     }
   }
 
   void AddEdges() {
-    FlatTable segment_of_edge;
+    PairTable edges(geometry_.point_count());
     for (std::size_t f = 0; f < result_.facets.size(); ++f) {
       const ArrangedFacet& own = result_.facets[f];
-      Group& group = result_.groups[group_of_facet_[f]];
-      if (!IsActive(group)) continue;
-      const int axis = geometry_.NormalAxis(group.plane);
+      const int number = group_of_facet_[f];
+      if (!GroupIsActive(number)) continue;
+      const Group& group = result_.groups[number];
       const bool agrees =
           own.plane == group.plane || geometry_.NormalsAgree(own.plane, group.plane) > 0;
       for (int k = 0; k < own.count; ++k) {
         const int u = own.corners[k], v = own.corners[(k + 1) % own.count];
-        const auto [number, added] = segment_of_edge.Insert(
-            {std::min(u, v), std::max(u, v), 0, 0}, static_cast<int>(result_.segments.size()));
+        const auto [small, large] = std::minmax(u, v);
+        const auto [segment, added] = edges.Insert(small, large);
         if (added) {
-          Segment segment;
-          segment.axis = EdgeAxis(u, v);
-          segment.points = {std::min(u, v), std::max(u, v)};
-          result_.segments.push_back(std::move(segment));
+          result_.segments.push_back({-1, -1, false, false, EdgeAxis(u, v), {small, large}, {}});
         }
-        group.walls.push_back({number, geometry_.AddEdgePlane(u, v, axis), static_cast<int>(f), -1,
-                               (u < v) == agrees});
+        walls_.push_back({number, {segment, -1, static_cast<int>(f), -1, (u < v) == agrees}});
+      }
+    }
+  }
+
+  // Groups of more than one facet, or with more walls than its edges, are cut; only there do edges
+  // need planes along them.
+  void ListWalls() {
+    auto walls = ListByOwner<Wall>(group_count(), [&](const auto& visit) {
+      for (const GroupWall& each : walls_) visit(each.group, each.wall);
+    });
+    walls_ = {};
+    result_.walls_of_groups = std::move(walls.items);
+    const std::span<Wall> all(result_.walls_of_groups);
+    for (int g = 0; g < group_count(); ++g) {
+      Group& group = result_.groups[g];
+      const std::span<Wall> own = all.subspan(walls.first[g], walls.first[g + 1] - walls.first[g]);
+      group.walls = own;
+      group.is_cut = group.facets.size() > 1 || std::ssize(own) != facet(group.facets[0]).count;
+      if (!group.is_cut || own.empty()) continue;
+      const int axis = geometry_.NormalAxis(group.plane);
+      for (Wall& wall : own) {
+        if (wall.other >= 0) continue;
+        const std::array<int, 2>& ends = result_.segments[wall.segment].ends;
+        wall.line_plane = geometry_.AddEdgePlane(ends[0], ends[1], axis);
       }
     }
   }
@@ -234,20 +339,24 @@ class Arranger {
     ++result_.crossings;
     const int number = static_cast<int>(result_.segments.size());
     result_.segments.push_back(
-        {pair.f, pair.g, !of_f->is_on_edge, !of_g->is_on_edge, axis, {from, to}});
-    Group &group_f = result_.groups[group_of_facet_[pair.f]],
-          &group_g = result_.groups[group_of_facet_[pair.g]];
-    if (IsActive(group_f)) group_f.walls.push_back({number, plane_g, pair.f, pair.g, false});
-    if (IsActive(group_g)) group_g.walls.push_back({number, plane_f, pair.g, pair.f, false});
+        {pair.f, pair.g, !of_f->is_on_edge, !of_g->is_on_edge, axis, {from, to}, {}});
+    const int group_f = group_of_facet_[pair.f], group_g = group_of_facet_[pair.g];
+    if (GroupIsActive(group_f)) {
+      walls_.push_back({group_f, {number, plane_g, pair.f, pair.g, false}});
+    }
+    if (GroupIsActive(group_g)) {
+      walls_.push_back({group_g, {number, plane_f, pair.g, pair.f, false}});
+    }
   }
 
   // Adds to each wall's segment the points in which the group's other walls meet it.
   void CutWalls(const Group& group) {
-    std::vector<Box3> boxes;
+    if (!group.is_cut) return;
+    std::vector<Box3>& boxes = wall_boxes_;
+    boxes.clear();
     for (const Wall& wall : group.walls) {
-      const Segment& segment = result_.segments[wall.segment];
-      const SumPoint &a = geometry_.point(segment.points[0]),
-                     &b = geometry_.point(segment.points[1]);
+      const std::array<int, 2> ends = Ends(wall);
+      const SumPoint &a = geometry_.point(ends[0]), &b = geometry_.point(ends[1]);
       const double error = std::max(a.error, b.error);
       boxes.push_back({a.rounded.cwiseMin(b.rounded) - Vector3d::Constant(error),
                        a.rounded.cwiseMax(b.rounded) + Vector3d::Constant(error)});
@@ -287,47 +396,66 @@ class Arranger {
     }
     if (of_t[0] * of_t[1] < 0 && of_s[0] * of_s[1] < 0) {
       const int point = CrossingPoint(group, s, t);
-      result_.segments[s.segment].points.push_back(point);
-      result_.segments[t.segment].points.push_back(point);
+      cuts_.push_back({s.segment, point});
+      cuts_.push_back({t.segment, point});
     }
   }
 
-  std::array<int, 2> Ends(const Wall& wall) const {
-    const std::vector<int>& points = result_.segments[wall.segment].points;
-    return {points[0], points[1]};
-  }
+  std::array<int, 2> Ends(const Wall& wall) const { return result_.segments[wall.segment].ends; }
 
   // A point of the segment's line: within the segment?
   void AddIfWithin(int point, int number) {
-    Segment& segment = result_.segments[number];
-    const int from = segment.points[0], to = segment.points[1];
+    const Segment& segment = result_.segments[number];
+    const auto [from, to] = segment.ends;
     if (point == from || point == to) return;
     if (geometry_.Compare(point, from, segment.axis) * geometry_.Compare(point, to, segment.axis) <
         0) {
-      segment.points.push_back(point);
+      cuts_.push_back({number, point});
     }
   }
 
   int CrossingPoint(const Group& group, const Wall& s, const Wall& t) {
     const Segment &of_s = result_.segments[s.segment], &of_t = result_.segments[t.segment];
     if (of_s.is_edge() && !of_t.is_edge()) {
-      return geometry_.AddOnEdge(of_s.points[0], of_s.points[1], t.line_plane);
+      return geometry_.AddOnEdge(of_s.ends[0], of_s.ends[1], t.line_plane);
     }
     if (of_t.is_edge() && !of_s.is_edge()) {
-      return geometry_.AddOnEdge(of_t.points[0], of_t.points[1], s.line_plane);
+      return geometry_.AddOnEdge(of_t.ends[0], of_t.ends[1], s.line_plane);
     }
     return geometry_.AddOfPlanes(group.plane, s.line_plane, t.line_plane);
   }
 
+  // Each segment's ends first, then what lies between.
+  void ListPoints() {
+    const int count = static_cast<int>(result_.segments.size());
+    auto points = ListByOwner<int>(count, [&](const auto& visit) {
+      for (int s = 0; s < count; ++s) {
+        for (const int end : result_.segments[s].ends) visit(s, end);
+      }
+      for (const Cut& cut : cuts_) visit(cut.segment, cut.point);
+    });
+    cuts_ = {};
+    result_.points_of_segments = std::move(points.items);
+    for (int s = 0; s < count; ++s) {
+      result_.segments[s].points =
+          std::span(result_.points_of_segments)
+              .subspan(points.first[s], points.first[s + 1] - points.first[s]);
+    }
+  }
+
   void SortPoints(Segment* segment) {
-    std::vector<int>& points = segment->points;
-    for (int& point : points) point = result_.representative[point];
-    const bool rises = geometry_.Compare(points[0], points[1], segment->axis) < 0;
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    std::sort(points.begin(), points.end(), [&](int x, int y) {
+    const auto begin = result_.points_of_segments.begin() +
+                       (segment->points.data() - result_.points_of_segments.data());
+    auto end = begin + std::ssize(segment->points);
+    for (auto point = begin; point != end; ++point) *point = result_.representative[*point];
+    if (end - begin == 2) return;
+    const bool rises = geometry_.Compare(begin[0], begin[1], segment->axis) < 0;
+    std::sort(begin, end);
+    end = std::unique(begin, end);
+    std::sort(begin, end, [&](int x, int y) {
       return geometry_.Compare(x, y, segment->axis) * (rises ? 1 : -1) < 0;
     });
+    segment->points = segment->points.first(static_cast<std::size_t>(end - begin));
   }
 
   SumGeometry& geometry_;
@@ -335,6 +463,10 @@ class Arranger {
   Arrangement result_;
   std::vector<CrossingPair> crossing_;
   std::vector<int> group_of_facet_;
+  std::vector<char> group_is_active_;
+  std::vector<GroupWall> walls_;
+  std::vector<Cut> cuts_;  // points within segments
+  std::vector<Box3> wall_boxes_;
 };
 
 }  // namespace

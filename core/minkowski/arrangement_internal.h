@@ -7,10 +7,7 @@
 #define TOUCHSTONE_CORE_MINKOWSKI_ARRANGEMENT_INTERNAL_H_
 
 #include <array>
-#include <map>
 #include <span>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "touchstone/core/minkowski/sum_geometry_internal.h"
@@ -29,8 +26,9 @@ struct Segment {
   int facet_f = -1, facet_g = -1;  // -1: an edge of facets, which its ends name
   // Whether a crossing passes through the inside of the facet, rather than along an edge of it.
   bool is_inside_f = false, is_inside_g = false;
-  int axis;                 // a coordinate that rises or falls strictly along it
-  std::vector<int> points;  // its ends, and whatever else lies on it; in order once sorted
+  int axis;                     // a coordinate that rises or falls strictly along it
+  std::array<int, 2> ends;      // points, as they were made
+  std::span<const int> points;  // from one end to the other, with all that lies between
 
   bool is_edge() const { return facet_f < 0; }
 };
@@ -38,27 +36,36 @@ struct Segment {
 // A segment as a group sees it.
 struct Wall {
   int segment;
-  int line_plane;  // meets the group's plane in the segment's line
+  int line_plane;  // meets the group's plane in the segment's line; -1 in a group that is not cut
   int facet;       // of the group: the facet that it is an edge of, or that is crossed
   int other;       // the facet that crosses; -1 for an edge
-  // For an edge: whether the facet lies on the left of the direction from points.front() on, as
-  // the segment was made, seen against the group's normal.
+  // For an edge: whether the facet lies on the left of the direction from points.front() on, seen
+  // against the group's normal.
   bool facet_is_left;
 };
 
 struct Group {
   int plane;  // whose normal orients the group
-  std::vector<int> facets;
-  std::vector<Wall> walls;
+  std::span<const int> facets;
+  std::span<const Wall> walls;
+  bool is_cut = true;  // false: a facet alone in its plane that nothing crosses
 };
 
+// Lists of points, facets and walls lie in one piece of memory each, at the end.
 struct Arrangement {
+  Arrangement() = default;
+  Arrangement(Arrangement&&) = default;
+  Arrangement& operator=(Arrangement&&) = default;
+
   std::vector<ArrangedFacet> facets;
   std::vector<Segment> segments;
   std::vector<Group> groups;
   // Equal points, by exact comparison, are one: the number of each point's representative.
   std::vector<int> representative;
   long box_pairs = 0, crossings = 0;
+
+  std::vector<int> points_of_segments, facets_of_groups;
+  std::vector<Wall> walls_of_groups;
 };
 
 // Cuts the facets. Points on segments are complete, sorted, and representatives.

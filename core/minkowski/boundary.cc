@@ -1,28 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/minkowski/boundary.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <map>
+#include <array>
 #include <numeric>
-#include <optional>
-#include <unordered_map>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/minkowski/arrangement_internal.h"
 #include "touchstone/core/minkowski/cells_internal.h"
+#include "touchstone/core/minkowski/flat_table_internal.h"
 #include "touchstone/core/minkowski/sample_internal.h"
 #include "touchstone/core/minkowski/triangulate_cell_internal.h"
 
 namespace touchstone {
 namespace {
 
+using Eigen::Vector3d;
 using internal::Arrangement;
 using internal::Cell;
 using internal::CellComplex;
+using internal::Piece;
 using internal::SumGeometry;
 using internal::SumPoint;
-using internal::SumPointForm;
 
 class Builder {
  public:
@@ -36,6 +39,7 @@ class Builder {
     complex_ = internal::FindCells(&geometry_, arrangement_);
     FormPatches();
     ClassifyPatches();
+    number_of_point_.assign(geometry_.point_count(), -1);
     for (std::size_t c = 0; c < complex_.cells.size(); ++c) {
       if (is_kept_[patch_[c]]) AddCell(static_cast<int>(c));
     }
@@ -51,20 +55,42 @@ class Builder {
  private:
   const Cell& cell(int c) const { return complex_.cells[c]; }
   int cell_count() const { return static_cast<int>(complex_.cells.size()); }
+  int piece_count() const { return static_cast<int>(complex_.pieces.size()); }
 
   // Cells that meet along a piece with no third beside them lie in M° together or not at all:
-  // nothing else of ∂M comes there.
+  // nothing else of ∂M comes there. Nor do two part company where all others at their piece are
+  // buried: the wedges beside a buried cell are in M°, and only one between the two can be out of
+  // it; it is, and both are on ∂M, or it is not, and both are in M°. (That holds of cells faced
+  // from one side: they have no other contact than their facet's, so just outside ∂M's M° ends. One
+  // faced from both may be an exact slot.)
   void FormPatches() {
-    cells_of_piece_.resize(complex_.pieces.size());
-    for (int c = 0; c < cell_count(); ++c) {
-      for (const int piece : cell(c).pieces) cells_of_piece_[piece].push_back(c);
-    }
-    patch_.resize(cell_count());
+    cells_of_piece_ = internal::ListByOwner<int>(piece_count(), [&](const auto& visit) {
+      for (int c = 0; c < cell_count(); ++c) {
+        for (const int piece : cell(c).pieces) visit(piece, c);
+      }
+    });
+    patch_.resize(complex_.cells.size());
     std::iota(patch_.begin(), patch_.end(), 0);
-    for (const std::vector<int>& cells : cells_of_piece_) {
+    for (int i = 0; i < piece_count(); ++i) {
+      const std::span<const int> cells = cells_of_piece_.Of(i);
       if (cells.size() == 2) patch_[Patch(cells[0])] = Patch(cells[1]);
     }
+    is_buried_.assign(complex_.cells.size(), 0);
+    for (int c = 0; c < cell_count(); ++c) is_buried_[Patch(c)] |= cell(c).is_buried;
+    for (int i = 0; i < piece_count(); ++i) JoinOverCrossing(cells_of_piece_.Of(i));
     for (int c = 0; c < cell_count(); ++c) patch_[c] = Patch(c);
+  }
+
+  void JoinOverCrossing(std::span<const int> cells) {
+    if (cells.size() <= 2) return;
+    std::array<int, 2> open{};
+    int count = 0;
+    for (const int c : cells) {
+      if (is_buried_[Patch(c)]) continue;
+      if (count == 2 || FacingSides(c) != 1) return;
+      open[count++] = c;
+    }
+    if (count == 2) patch_[Patch(open[0])] = Patch(open[1]);
   }
 
   int Patch(int c) {
@@ -73,37 +99,47 @@ class Builder {
   }
 
   void ClassifyPatches() {
-    std::vector<char> is_buried(cell_count(), 0);
-    std::vector<std::vector<int>> members(cell_count());
+    std::vector<int> largest(complex_.cells.size(), -1);
+    std::vector<double> area(complex_.cells.size(), -1.0);
     for (int c = 0; c < cell_count(); ++c) {
-      members[patch_[c]].push_back(c);
-      is_buried[patch_[c]] |= cell(c).is_buried;
+      const int p = patch_[c];
+      if (is_buried_[p]) continue;
+      const double own = SquaredAreaOf(cell(c).loops[0]);
+      if (own > area[p]) area[p] = own, largest[p] = c;
     }
-    is_kept_.assign(cell_count(), 0);
-    triangles_.resize(cell_count());
+    is_kept_.assign(complex_.cells.size(), 0);
     for (int p = 0; p < cell_count(); ++p) {
-      if (members[p].empty()) continue;
-      ++result_.patches;
-      if (!is_buried[p]) is_kept_[p] = IsOutsideM(members[p]);
+      result_.patches += patch_[p] == p;
+      if (largest[p] >= 0) is_kept_[p] = IsOutsideM(largest[p]);
     }
   }
 
-  // By a sample point in the largest triangle of the patch.
-  bool IsOutsideM(const std::vector<int>& cells) {
-    double largest = -1.0;
-    int cell_of_largest = -1;
-    std::array<int, 3> triangle{};
-    for (const int c : cells) {
-      triangles_[c] = internal::TriangulateCell(
-          &geometry_, arrangement_.groups[cell(c).group].plane, cell(c).loops);
-      for (const std::array<int, 3>& t : triangles_[c]) {
-        const double area = internal::SquaredArea(geometry_, t);
-        if (area > largest) largest = area, triangle = t, cell_of_largest = c;
-      }
+  double SquaredAreaOf(std::span<const int> loop) const {
+    const Vector3d& from = geometry_.point(loop[0]).rounded;
+    Vector3d twice = Vector3d::Zero(), before = geometry_.point(loop[1]).rounded - from;
+    for (const int point : loop.subspan(2)) {
+      const Vector3d after = geometry_.point(point).rounded - from;
+      twice += before.cross(after);
+      before = after;
     }
-    if (cell_of_largest < 0) return false;
-    const Cell& own = cell(cell_of_largest);
-    const int facet = own.along.empty() ? own.against[0] : own.along[0];
+    return twice.squaredNorm();
+  }
+
+  std::vector<std::array<int, 3>> TrianglesOf(int c) {
+    return internal::TriangulateCell(&geometry_, arrangement_.groups[cell(c).group].plane,
+                                     cell(c).loops);
+  }
+
+  // By a sample point in the largest triangle of the cell.
+  bool IsOutsideM(int c) {
+    double largest = -1.0;
+    std::array<int, 3> triangle{};
+    for (const std::array<int, 3>& t : TrianglesOf(c)) {
+      const double area = internal::SquaredArea(geometry_, t);
+      if (area > largest) largest = area, triangle = t;
+    }
+    if (largest < 0.0) return false;
+    const int facet = cell(c).along.empty() ? cell(c).against[0] : cell(c).along[0];
     const internal::Sample sample =
         internal::SampleIn(&geometry_, arrangement_.facets[facet], triangle);
     const Verdict verdict = VerdictAt(sample);
@@ -118,12 +154,27 @@ class Builder {
         .verdict;
   }
 
+  // Whether the middle between two points lies in M°: in doubles, if they can tell.
+  bool IsMiddleInM(int x, int y) {
+    const SumPoint &p = geometry_.point(x), &q = geometry_.point(y);
+    Translation middle(Vector3d(0.5 * (p.rounded + q.rounded) / pair_.scale()));
+    middle.error =
+        (1.01 * std::max(p.error, q.error) +
+         2.0 * kUnit * (p.rounded.cwiseAbs().maxCoeff() + q.rounded.cwiseAbs().maxCoeff())) /
+        pair_.scale();
+    ++result_.memberships;
+    const Verdict verdict =
+        Membership(pair_, middle, {Certainty::kFloat}, &membership_cache_).verdict;
+    if (verdict != Verdict::kUndecided) return verdict == Verdict::kOverlap;
+    return VerdictAt(internal::SampleBetween(&geometry_, x, y)) == Verdict::kOverlap;
+  }
+
   void AddCell(int c) {
     const Cell& own = cell(c);
     const bool is_sheet = !own.along.empty() && !own.against.empty();
     const bool is_along = !own.along.empty();
     const int facet = is_along ? own.along[0] : own.against[0];
-    for (std::array<int, 3> t : triangles_[c]) {
+    for (std::array<int, 3> t : TrianglesOf(c)) {
       if (!is_along) std::swap(t[1], t[2]);
       for (int& point : t) point = AddPoint(point);
       (is_sheet ? result_.sheets : result_.triangles).push_back(t);
@@ -132,90 +183,144 @@ class Builder {
   }
 
   int AddPoint(int point) {
-    const auto [place, added] =
-        number_of_point_.try_emplace(point, static_cast<int>(result_.vertices.size()));
-    if (added) {
+    int& number = number_of_point_[point];
+    if (number < 0) {
+      number = static_cast<int>(result_.vertices.size());
       const SumPoint& x = geometry_.point(point);
       result_.vertices.push_back(x.rounded / pair_.scale());
       result_.rounding = std::max(result_.rounding, x.error / pair_.scale());
       result_.names.push_back(geometry_.NameOf(point));
     }
-    return place->second;
+    return number;
   }
 
   // Segments and points of ∂M with M° all around. Around a segment in the inside of two facets
   // some direction leads out of both; so only segments on three or more planes, or sides of planes,
   // can be such, and only points on four or more, or vertices of M.
   void AddLonePieces() {
-    std::vector<std::vector<std::pair<int, bool>>> planes_of_point(geometry_.point_count());
     std::vector<char> is_near_kept(geometry_.point_count(), 0);
-    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
-      const internal::Piece& piece = complex_.pieces[i];
-      const bool is_kept = std::any_of(cells_of_piece_[i].begin(), cells_of_piece_[i].end(),
-                                       [&](int c) { return is_kept_[patch_[c]] != 0; });
-      std::vector<std::pair<int, bool>> planes;
-      for (const int c : cells_of_piece_[i]) {
-        const int root = arrangement_.groups[cell(c).group].plane;
-        if (!cell(c).along.empty()) planes.emplace_back(root, true);
-        if (!cell(c).against.empty()) planes.emplace_back(root, false);
-      }
-      std::sort(planes.begin(), planes.end());
-      planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
-      for (const int point : {piece.from, piece.to}) {
-        is_near_kept[point] |= is_kept;
-        auto& own = planes_of_point[point];
-        own.insert(own.end(), planes.begin(), planes.end());
-      }
-      if (is_kept || planes.size() < 3) continue;
-      const internal::Sample sample = internal::SampleBetween(&geometry_, piece.from, piece.to);
-      if (VerdictAt(sample) == Verdict::kOverlap) continue;
-      is_near_kept[piece.from] = is_near_kept[piece.to] = 1;
+    for (int i = 0; i < piece_count(); ++i) {
+      if (IsNearKept(i)) MarkEnds(complex_.pieces[i], &is_near_kept);
+    }
+    std::vector<Piece> segments;
+    for (int i = 0; i < piece_count(); ++i) {
+      const Piece& piece = complex_.pieces[i];
+      if (FacingSidesAt(i) < 3 || IsNearKept(i)) continue;
+      if (PlanesOf(i).size() < 3 || IsMiddleInM(piece.from, piece.to)) continue;
+      segments.push_back(piece);
+    }
+    for (const Piece& piece : segments) {
+      MarkEnds(piece, &is_near_kept);
       result_.segments.push_back({AddPoint(piece.from), AddPoint(piece.to)});
     }
+    AddLonePoints(is_near_kept);
+  }
+
+  bool IsNearKept(int piece) const {
+    const std::span<const int> cells = cells_of_piece_.Of(piece);
+    return std::any_of(cells.begin(), cells.end(), [&](int c) { return is_kept_[patch_[c]] != 0; });
+  }
+
+  int FacingSides(int c) const { return !cell(c).along.empty() + !cell(c).against.empty(); }
+
+  int FacingSidesAt(int piece) const {
+    int sides = 0;
+    for (const int c : cells_of_piece_.Of(piece)) sides += FacingSides(c);
+    return sides;
+  }
+
+  static void MarkEnds(const Piece& piece, std::vector<char>* marks) {
+    (*marks)[piece.from] = (*marks)[piece.to] = 1;
+  }
+
+  // The planes of the cells at a piece, by which way they face.
+  const std::vector<std::pair<int, bool>>& PlanesOf(int piece) {
+    planes_.clear();
+    for (const int c : cells_of_piece_.Of(piece)) {
+      const int root = arrangement_.groups[cell(c).group].plane;
+      if (!cell(c).along.empty()) planes_.emplace_back(root, true);
+      if (!cell(c).against.empty()) planes_.emplace_back(root, false);
+    }
+    std::sort(planes_.begin(), planes_.end());
+    planes_.erase(std::unique(planes_.begin(), planes_.end()), planes_.end());
+    return planes_;
+  }
+
+  void AddLonePoints(const std::vector<char>& is_near_kept) {
+    const auto pieces_of_point =
+        internal::ListByOwner<int>(geometry_.point_count(), [&](const auto& visit) {
+          for (int i = 0; i < piece_count(); ++i) {
+            for (const int point : {complex_.pieces[i].from, complex_.pieces[i].to}) {
+              if (!is_near_kept[point]) visit(point, i);
+            }
+          }
+        });
+    std::vector<std::pair<int, bool>> planes;
     for (int point = 0; point < geometry_.point_count(); ++point) {
-      auto& planes = planes_of_point[point];
-      std::sort(planes.begin(), planes.end());
-      planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
-      if (planes.size() < 4 || is_near_kept[point]) continue;
-      const internal::Sample sample = internal::SampleBetween(&geometry_, point, point);
-      if (VerdictAt(sample) != Verdict::kOverlap) result_.points.push_back(AddPoint(point));
+      planes.clear();
+      for (const int piece : pieces_of_point.Of(point)) {
+        for (const auto& plane : PlanesOf(piece)) {
+          if (std::find(planes.begin(), planes.end(), plane) == planes.end()) {
+            planes.push_back(plane);
+          }
+        }
+      }
+      if (planes.size() < 4 || IsMiddleInM(point, point)) continue;
+      result_.points.push_back(AddPoint(point));
     }
   }
 
   void CountComponents() {
-    std::map<std::pair<int, int>, std::pair<int, int>> edges;  // ends: runs up and down, a triangle
+    struct Edge {
+      int triangle;  // one of its own
+      int balance;   // runs up less runs down
+    };
+    const int count = static_cast<int>(result_.triangles.size());
+    internal::PairTable numbers(static_cast<int>(result_.vertices.size()));
+    std::vector<Edge> edges;
     std::vector<int> parent(result_.triangles.size());
     std::iota(parent.begin(), parent.end(), 0);
     const auto find = [&](int t) {
       while (parent[t] != t) t = parent[t] = parent[parent[t]];
       return t;
     };
-    for (std::size_t t = 0; t < result_.triangles.size(); ++t) {
+    for (int t = 0; t < count; ++t) {
       for (int k = 0; k < 3; ++k) {
         const int u = result_.triangles[t][k], v = result_.triangles[t][(k + 1) % 3];
-        const auto [place, added] = edges.try_emplace(std::minmax(u, v), 0, static_cast<int>(t));
-        place->second.first += u < v ? 1 : -1;
-        parent[find(static_cast<int>(t))] = find(place->second.second);
+        const auto [number, added] = numbers.Insert(std::min(u, v), std::max(u, v));
+        if (added) edges.push_back({t, 0});
+        edges[number].balance += u < v ? 1 : -1;
+        parent[find(t)] = find(edges[number].triangle);
       }
     }
-    std::unordered_map<int, int> component_of_root;
-    result_.component_of_triangle.resize(result_.triangles.size());
-    std::vector<std::pair<int, int>> corners;  // component, vertex
+    std::vector<int> component_of_root(result_.triangles.size(), -1);
+    for (int t = 0; t < count; ++t) {
+      int& component = component_of_root[find(t)];
+      if (component < 0) {
+        component = static_cast<int>(result_.components.size());
+        result_.components.emplace_back();
+      }
+      result_.component_of_triangle.push_back(component);
+      ++result_.components[component].triangle_count;
+    }
+    for (const Edge& edge : edges) {
+      ++result_.components[result_.component_of_triangle[edge.triangle]].edge_count;
+      result_.border_edges += edge.balance != 0;
+    }
+    CountVertices();
+  }
+
+  // A vertex counts for every component that it belongs to.
+  void CountVertices() {
+    std::vector<std::pair<int, int>> corners;  // vertex, component
     for (std::size_t t = 0; t < result_.triangles.size(); ++t) {
-      const auto [place, added] = component_of_root.try_emplace(
-          find(static_cast<int>(t)), static_cast<int>(result_.components.size()));
-      if (added) result_.components.emplace_back();
-      result_.component_of_triangle[t] = place->second;
-      ++result_.components[place->second].triangle_count;
-      for (const int v : result_.triangles[t]) corners.emplace_back(place->second, v);
+      for (const int v : result_.triangles[t]) {
+        corners.emplace_back(v, result_.component_of_triangle[t]);
+      }
     }
     std::sort(corners.begin(), corners.end());
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    for (const auto& [component, v] : corners) ++result_.components[component].vertex_count;
-    for (const auto& [ends, edge] : edges) {
-      ++result_.components[result_.component_of_triangle[edge.second]].edge_count;
-      result_.border_edges += edge.first != 0;
-    }
+    for (const auto& [v, component] : corners) ++result_.components[component].vertex_count;
   }
 
   const MeshPair& pair_;
@@ -224,11 +329,11 @@ class Builder {
   CellComplex complex_;
   SumBoundary result_;
   MembershipCache membership_cache_;
-  std::vector<std::vector<int>> cells_of_piece_;
+  internal::ItemLists<int> cells_of_piece_;
   std::vector<int> patch_;
-  std::vector<char> is_kept_;                               // by patch
-  std::vector<std::vector<std::array<int, 3>>> triangles_;  // by cell
-  std::unordered_map<int, int> number_of_point_;
+  std::vector<char> is_buried_, is_kept_;     // by patch
+  std::vector<int> number_of_point_;          // in the result; -1: not there
+  std::vector<std::pair<int, bool>> planes_;  // scratch
 };
 
 }  // namespace

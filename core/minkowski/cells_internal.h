@@ -23,18 +23,26 @@ struct Cell {
   // Its borders as cyclic lists of points with the cell on the left, seen against the group's
   // normal: first the outer one, then one round each hole. A border may pass a point, or both sides
   // of a piece, more than once.
-  std::vector<std::vector<int>> loops;
+  std::span<const std::span<const int>> loops;
   // The facets that cover it, in two lists: those that face as the group's normal does, and the
   // others.
-  std::vector<int> along, against;
+  std::span<const int> along, against;
   // Whether a facet that passes through was seen to bury it: then it lies in M°.
   bool is_buried = false;
-  std::vector<int> pieces;  // that border it, one entry for each side that does
+  std::span<const int> pieces;  // that border it, one entry for each side that does
 };
 
+// The lists of cells lie in one piece of memory each, at the end.
 struct CellComplex {
+  CellComplex() = default;
+  CellComplex(CellComplex&&) = default;
+  CellComplex& operator=(CellComplex&&) = default;
+
   std::vector<Piece> pieces;
   std::vector<Cell> cells;
+
+  std::vector<std::span<const int>> loops_of_cells;
+  std::vector<int> points_of_loops, pieces_of_cells, facets_of_cells;
 };
 
 // Cuts every group that has walls into cells. A cell is buried if it borders, on the inner side of

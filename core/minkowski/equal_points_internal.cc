@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <unordered_map>
+#include <utility>
 
-#include "touchstone/core/minkowski/arrangement_internal.h"
+#include "touchstone/core/minkowski/flat_table_internal.h"
 
 namespace touchstone::internal {
 namespace {
@@ -43,6 +43,13 @@ class Finder {
   }
 
   std::vector<int> Representatives() {
+    auto cells = ListByOwner<int>(static_cast<int>(hashes_.size()), [&](const auto& visit) {
+      for (const auto& [cell, point] : members_) visit(cell, point);
+    });
+    for (std::size_t c = 0; c < hashes_.size(); ++c) {
+      JoinEqual(
+          std::span(cells.items).subspan(cells.first[c], cells.first[c + 1] - cells.first[c]));
+    }
     for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = Find(static_cast<int>(i));
     return std::move(parent_);
   }
@@ -56,15 +63,28 @@ class Finder {
   }
 
   void AddToCell(int point, std::uint64_t cell) {
-    std::vector<int>& members = cells_[cell];
-    for (const int other : members) {
-      if (Find(other) == Find(point)) continue;
-      if (geometry_.AreEqual(other, point)) {
-        const auto [small, large] = std::minmax({Find(other), Find(point)});
-        parent_[large] = small;
+    const int count = static_cast<int>(hashes_.size());
+    const int number = cells_.Insert(cell, count, [&](int i) { return hashes_[i] == cell; });
+    if (number == count) hashes_.push_back(cell);
+    members_.emplace_back(number, point);
+  }
+
+  // Points of one cell in their exact order: equal ones are neighbours. Bodies that are symmetric
+  // up to rounding have many points in one cell, no two of them equal.
+  void JoinEqual(std::span<int> points) {
+    if (points.size() < 2) return;
+    std::sort(points.begin(), points.end(), [&](int x, int y) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const int sign = geometry_.Compare(x, y, axis);
+        if (sign != 0) return sign < 0;
       }
+      return false;
+    });
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      if (!geometry_.AreEqual(points[k - 1], points[k])) continue;
+      const auto [small, large] = std::minmax({Find(points[k - 1]), Find(points[k])});
+      parent_[large] = small;
     }
-    members.push_back(point);
   }
 
   int Find(int i) {
@@ -75,16 +95,16 @@ class Finder {
   SumGeometry& geometry_;
   std::vector<int> parent_;
   std::vector<char> is_added_;
-  std::unordered_map<std::uint64_t, std::vector<int>> cells_;
+  NumberTable cells_;
+  std::vector<std::uint64_t> hashes_;         // of cells
+  std::vector<std::pair<int, int>> members_;  // cell, point
 };
 
 }  // namespace
 
-std::vector<int> FindEqualPoints(SumGeometry* geometry, std::span<const Segment> segments) {
+std::vector<int> FindEqualPoints(SumGeometry* geometry, std::span<const int> points) {
   Finder finder(geometry);
-  for (const Segment& segment : segments) {
-    for (const int point : segment.points) finder.Add(point);
-  }
+  for (const int point : points) finder.Add(point);
   return finder.Representatives();
 }
 

@@ -9,13 +9,10 @@
 
 namespace touchstone::internal {
 
-struct Segment;
-
 // For every point of the geometry the smallest number of those equal to it, by exact comparison,
-// among the points on the segments (others represent themselves). Wide roundings of those points
-// are made narrow. Complexity: O(n), and one exact comparison for each two points that doubles
-// cannot tell apart.
-std::vector<int> FindEqualPoints(SumGeometry* geometry, std::span<const Segment> segments);
+// among the points listed (others represent themselves). Wide roundings of the listed are made
+// narrow. Complexity: O(n), and O(k log k) comparisons for k points within 2^-36 of each other.
+std::vector<int> FindEqualPoints(SumGeometry* geometry, std::span<const int> points);
 
 }  // namespace touchstone::internal
 

@@ -5,35 +5,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace touchstone::internal {
 
-// From keys of four numbers to numbers, in one piece of memory: open addressing, half full at most.
-class FlatTable {
+// Finds the numbers of things again by what they are, in one piece of memory: open addressing, half
+// full at most. Only hashes and numbers are stored, eight bytes each; the things themselves are
+// kept, and compared, by the caller.
+class NumberTable {
  public:
-  using Key = std::array<int, 4>;
-
-  // The value under the key, and whether it was new: then it is `value`. The reference lives until
-  // the next call.
-  std::pair<int&, bool> Insert(const Key& key, int value) {
-    if (2 * (size_ + 1) > entries_.size()) Grow();
-    Entry& entry = entries_[PlaceOf(key)];
-    if (entry.is_used) return {entry.value, false};
-    entry = {key, value, true};
-    ++size_;
-    return {entry.value, true};
-  }
-
- private:
-  struct Entry {
-    Key key;
-    int value;
-    bool is_used = false;
-  };
-
-  static std::uint64_t Hash(const Key& key) {
+  static std::uint64_t Hash(const std::array<int, 4>& key) {
     std::uint64_t hash = 0;
     for (const int part : key) {
       hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9e3779b97f4a7c15u;
@@ -42,25 +25,97 @@ class FlatTable {
     return hash;
   }
 
-  std::size_t PlaceOf(const Key& key) const {
-    std::size_t place = Hash(key) & (entries_.size() - 1);
-    while (entries_[place].is_used && entries_[place].key != key) {
-      place = (place + 1) & (entries_.size() - 1);
+  // The number of the thing with this hash for which is_same(number), or else `number`, under which
+  // it is found from now on.
+  template <class IsSame>
+  int Insert(std::uint64_t hash, int number, const IsSame& is_same) {
+    if (2 * (size_ + 1) > entries_.size()) Grow();
+    const auto own = static_cast<std::uint32_t>(hash);
+    std::size_t place = own & (entries_.size() - 1);
+    for (; entries_[place].number >= 0; place = (place + 1) & (entries_.size() - 1)) {
+      if (entries_[place].hash == own && is_same(entries_[place].number)) {
+        return entries_[place].number;
+      }
     }
-    return place;
+    entries_[place] = {own, number};
+    ++size_;
+    return number;
   }
+
+ private:
+  struct Entry {
+    std::uint32_t hash = 0;
+    int number = -1;
+  };
 
   void Grow() {
     std::vector<Entry> before(entries_.empty() ? 32 : 2 * entries_.size());
     std::swap(before, entries_);
     for (const Entry& entry : before) {
-      if (entry.is_used) entries_[PlaceOf(entry.key)] = entry;
+      if (entry.number < 0) continue;
+      std::size_t place = entry.hash & (entries_.size() - 1);
+      while (entries_[place].number >= 0) place = (place + 1) & (entries_.size() - 1);
+      entries_[place] = entry;
     }
   }
 
   std::vector<Entry> entries_;
   std::size_t size_ = 0;
 };
+
+// Finds the numbers of pairs of numbers again: for each first one a list of its pairs, short where
+// few pairs share it. Pairs are numbered 0, 1, ... in the order in which they come.
+class PairTable {
+ public:
+  // Of pairs with first numbers below `count`.
+  explicit PairTable(int count) : newest_(static_cast<std::size_t>(count), -1) {}
+
+  // The number of the pair, and whether it is new.
+  std::pair<int, bool> Insert(int first, int second) {
+    for (int i = newest_[first]; i >= 0; i = links_[i].older) {
+      if (links_[i].second == second) return {i, false};
+    }
+    const int number = static_cast<int>(links_.size());
+    links_.push_back({second, newest_[first]});
+    newest_[first] = number;
+    return {number, true};
+  }
+
+ private:
+  struct Link {
+    int second;
+    int older;  // another pair with the same first number
+  };
+  std::vector<int> newest_;
+  std::vector<Link> links_;
+};
+
+// Lists of items by owner in one piece of memory: those of owner i are items[first[i]] to
+// items[first[i + 1] - 1], in the order in which they came.
+template <class Item>
+struct ItemLists {
+  std::vector<int> first;
+  std::vector<Item> items;
+
+  std::span<const Item> Of(int owner) const {
+    return {items.data() + first[owner], items.data() + first[owner + 1]};
+  }
+};
+
+// for_each_item(visit) calls visit(owner, item) for every item, twice over in the same order.
+template <class Item, class ForEachItem>
+ItemLists<Item> ListByOwner(int owner_count, const ForEachItem& for_each_item) {
+  ItemLists<Item> lists;
+  lists.first.assign(static_cast<std::size_t>(owner_count) + 1, 0);
+  for_each_item([&](int owner, const Item&) { ++lists.first[owner]; });
+  int sum = 0;
+  for (int& place : lists.first) place = std::exchange(sum, sum + place);
+  lists.items.resize(static_cast<std::size_t>(sum));
+  for_each_item([&](int owner, const Item& item) { lists.items[lists.first[owner]++] = item; });
+  for (int i = owner_count; i > 0; --i) lists.first[i] = lists.first[i - 1];
+  lists.first[0] = 0;
+  return lists;
+}
 
 }  // namespace touchstone::internal
 

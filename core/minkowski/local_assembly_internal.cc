@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "touchstone/core/minkowski/arrangement_internal.h"
@@ -85,10 +86,10 @@ class Assembler {
   }
 
   // By the parity of a ray; the point is not within the slack of any border.
-  bool IsInLoops(const std::vector<std::vector<int>>& loops, const Vector3d& x, int axis) const {
+  bool IsInLoops(std::span<const std::span<const int>> loops, const Vector3d& x, int axis) const {
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
     bool inside = false;
-    for (const std::vector<int>& loop : loops) {
+    for (const std::span<const int> loop : loops) {
       const Vector3d* u = &At(loop.back());
       for (const int point : loop) {
         const Vector3d* v = &At(point);
@@ -167,7 +168,7 @@ class Assembler {
     }
   }
 
-  double SquaredAreaOf(const std::vector<int>& loop) const {
+  double SquaredAreaOf(std::span<const int> loop) const {
     Vector3d twice = Vector3d::Zero();
     for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
       twice += (At(loop[k]) - At(loop[0])).cross(At(loop[k + 1]) - At(loop[0]));
@@ -177,15 +178,18 @@ class Assembler {
 
   const std::vector<std::array<int, 3>>& TrianglesOf(int c) {
     if (triangles_[c].empty()) {
-      triangles_[c] = TriangulateCell(&geometry_, arrangement_.groups[cell(c).group].plane,
-                                      InOrder(cell(c).loops));
+      const std::vector<std::vector<int>> loops = InOrder(cell(c).loops);
+      const std::vector<std::span<const int>> views(loops.begin(), loops.end());
+      triangles_[c] = TriangulateCell(&geometry_, arrangement_.groups[cell(c).group].plane, views);
     }
     return triangles_[c];
   }
 
   // The same loops, each begun at its first point in the order of coordinates, holes by that point:
   // so that a cell is cut into the same triangles whatever else was there to be numbered.
-  std::vector<std::vector<int>> InOrder(std::vector<std::vector<int>> loops) {
+  std::vector<std::vector<int>> InOrder(std::span<const std::span<const int>> unordered) {
+    std::vector<std::vector<int>> loops;
+    for (const std::span<const int> loop : unordered) loops.emplace_back(loop.begin(), loop.end());
     const auto is_before = [&](int x, int y) {
       for (int axis = 0; axis < 3; ++axis) {
         const int sign = geometry_.Compare(x, y, axis);

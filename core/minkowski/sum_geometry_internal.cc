@@ -37,9 +37,10 @@ int SignOf(double value, double error) {
 }  // namespace
 
 int SumGeometry::Add(SumPointForm form, const std::array<int, 3>& parts) {
-  const auto [number, added] =
-      point_numbers_.Insert({static_cast<int>(form), parts[0], parts[1], parts[2]}, point_count());
-  if (added) points_.push_back({form, parts, Vector3d::Zero(), kInfinity});
+  const int number = point_numbers_.Insert(
+      NumberTable::Hash({static_cast<int>(form), parts[0], parts[1], parts[2]}), point_count(),
+      [&](int i) { return points_[i].form == form && points_[i].parts == parts; });
+  if (number == point_count()) points_.push_back({form, parts, Vector3d::Zero(), kInfinity});
   return number;
 }
 
@@ -193,13 +194,15 @@ int SumGeometry::AddFacetPlane(const SumFacet& facet, const std::array<int, 4>& 
 
 int SumGeometry::AddEdgePlane(int vertex, int other_vertex, int axis) {
   const auto [small, large] = std::minmax(vertex, other_vertex);
-  const auto [number, added] =
-      edge_planes_.Insert({small, large, axis, 0}, static_cast<int>(planes_.size()));
-  if (!added) return number;
+  const std::array<int, 4> ends = {small, large, large, large};
+  const int number = edge_planes_.Insert(
+      NumberTable::Hash({small, large, axis, 0}), static_cast<int>(planes_.size()),
+      [&](int p) { return planes_[p].axis == axis && planes_[p].points == ends; });
+  if (number < static_cast<int>(planes_.size())) return number;
   const SumPoint &u = points_[small], &v = points_[large];
   const Vector3d edge = v.rounded - u.rounded;
   SumPlane plane;
-  plane.points = {small, large, large, large};
+  plane.points = ends;
   plane.axis = axis;
   plane.normal = edge.cross(Vector3d::Unit(axis));
   plane.normal_error = 1.01 * (u.error + v.error + kUnit * MaxAbs(edge));
@@ -416,8 +419,7 @@ Vector3d SumGeometry::UnitNormal(int plane) {
 }
 
 const SumGeometry::ExactPlane& SumGeometry::ExactPlaneOf(int plane) {
-  const auto found = exact_planes_.find(plane);
-  if (found != exact_planes_.end()) return found->second;
+  if (const ExactPlane* known = exact_planes_.Find(plane)) return *known;
   const auto& corners = planes_[plane].points;
   const DyadicVector origin = Exact(corners[0]).coordinates;
   const DyadicVector u = Exact(corners[1]).coordinates - origin;
@@ -428,7 +430,7 @@ const SumGeometry::ExactPlane& SumGeometry::ExactPlaneOf(int plane) {
     v[planes_[plane].axis] = Dyadic(1);
   }
   const DyadicVector normal = Cross(u, v);
-  return exact_planes_.try_emplace(plane, ExactPlane{normal, Dot(normal, origin)}).first->second;
+  return exact_planes_.Add(plane, {normal, Dot(normal, origin)});
 }
 
 ExactPoint SumGeometry::MakeExact(const SumPoint& point) {
@@ -460,10 +462,8 @@ ExactPoint SumGeometry::MakeExact(const SumPoint& point) {
 }
 
 const ExactPoint& SumGeometry::Exact(int point) {
-  const auto found = exact_points_.find(point);
-  if (found != exact_points_.end()) return found->second;
-  ExactPoint exact = MakeExact(points_[point]);
-  return exact_points_.try_emplace(point, std::move(exact)).first->second;
+  if (const ExactPoint* known = exact_points_.Find(point)) return *known;
+  return exact_points_.Add(point, MakeExact(points_[point]));
 }
 
 void SumGeometry::Sharpen(int point) {

@@ -10,8 +10,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "touchstone/core/base/dyadic.h"
@@ -47,6 +48,27 @@ struct SumPoint {
   std::array<int, 3> parts;
   Eigen::Vector3d rounded;
   double error;  // of each coordinate; infinite where doubles cannot tell
+};
+
+// What was made for some of many numbers, where it stays.
+template <class Item>
+class KeptItems {
+ public:
+  // Null if nothing was made for the number.
+  const Item* Find(int number) const {
+    const auto i = static_cast<std::size_t>(number);
+    return i < places_.size() && places_[i] >= 0 ? &items_[places_[i]] : nullptr;
+  }
+  const Item& Add(int number, Item item) {
+    const auto i = static_cast<std::size_t>(number);
+    if (i >= places_.size()) places_.resize(i + 1 + i / 2, -1);
+    places_[i] = static_cast<int>(items_.size());
+    return items_.emplace_back(std::move(item));
+  }
+
+ private:
+  std::vector<int> places_;
+  std::deque<Item> items_;
 };
 
 class SumGeometry {
@@ -128,9 +150,9 @@ class SumGeometry {
   std::vector<SumPoint> points_;
   std::vector<SumPlane> planes_;
   mutable std::vector<int> roots_;
-  FlatTable point_numbers_, edge_planes_;
-  std::unordered_map<int, ExactPoint> exact_points_;
-  std::unordered_map<int, ExactPlane> exact_planes_;
+  NumberTable point_numbers_, edge_planes_;
+  KeptItems<ExactPoint> exact_points_;
+  KeptItems<ExactPlane> exact_planes_;
   long exact_count_ = 0;
 };
 

@@ -16,11 +16,11 @@ class Triangulator {
     sense_ = geometry_.NormalAlong(plane, axis_);
   }
 
-  std::vector<std::array<int, 3>> Run(std::span<const Loop> loops) {
-    Loop polygon = WithoutSpikes(loops[0]);
+  std::vector<std::array<int, 3>> Run(std::span<const std::span<const int>> loops) {
+    Loop polygon = WithoutSpikes({loops[0].begin(), loops[0].end()});
     std::vector<Loop> holes;
     for (std::size_t k = 1; k < loops.size(); ++k) {
-      Loop hole = WithoutSpikes(loops[k]);
+      Loop hole = WithoutSpikes({loops[k].begin(), loops[k].end()});
       if (hole.size() >= 3) holes.push_back(std::move(hole));
     }
     while (!holes.empty() && JoinAHole(&polygon, &holes)) {
@@ -165,7 +165,7 @@ class Triangulator {
 }  // namespace
 
 std::vector<std::array<int, 3>> TriangulateCell(SumGeometry* geometry, int plane,
-                                                std::span<const Loop> loops) {
+                                                std::span<const std::span<const int>> loops) {
   return Triangulator(geometry, plane).Run(loops);
 }
 

@@ -15,7 +15,7 @@ namespace touchstone::internal {
 // the normal against which they are seen. Every sign is exact. Empty only for a loop that winds
 // round nothing. Complexity: O(n^3) at worst, n mostly below ten.
 std::vector<std::array<int, 3>> TriangulateCell(SumGeometry* geometry, int plane,
-                                                std::span<const std::vector<int>> loops);
+                                                std::span<const std::span<const int>> loops);
 
 }  // namespace touchstone::internal
 

@@ -35,6 +35,8 @@ struct Arguments {
 };
 
 constexpr std::uint64_t kDefaultCount = 1000;
+constexpr std::uint64_t kMembershipPiece =
+    10000;  // placements from one line of progress to the next
 
 EarlyExit ParseEarlyExit(const std::string& word) {
   if (word == "never") return EarlyExit::kNever;
@@ -102,8 +104,14 @@ int RunMembershipCommand(const Arguments& arguments) {
   const MembershipRunOptions options{arguments.seed, arguments.first,
                                      arguments.count == 0 ? kDefaultCount : arguments.count};
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  const auto stats = RunMembershipPlacements(options, [&](double fraction) {
-    if (terminal) std::cerr << '\r' << static_cast<int>(100.0 * fraction) << "% " << std::flush;
+  // On a terminal one line that changes; else a line every so often, to go on from with --first.
+  std::uint64_t told = 0;
+  const auto stats = RunMembershipPlacements(options, [&](const MembershipProgress& progress) {
+    if (!terminal && progress.placements < told + kMembershipPiece) return;
+    told = progress.placements;
+    std::cerr << (terminal ? "\r" : "") << "placements " << options.first << " to "
+              << options.first + progress.placements << ", " << progress.wrong << " wrong"
+              << (terminal ? " " : "\n") << std::flush;
   });
   if (terminal) std::cerr << "\r\033[K";
   Json json = {{"seed", options.seed}, {"first", options.first}, {"count", options.count}};
