@@ -23,12 +23,18 @@ class Query {
         x_(x),
         offset_(internal::MakeOffset(pair, x)),
         is_exact_(options.certainty == Certainty::kExact),
+        contacts_(options.contacts),
         cache_(*cache) {}
 
   MembershipResult Run() {
     cache_.unsure.clear();
     if (WitnessCrosses() || SurfacesCross()) return Decide(Verdict::kOverlap, Tier::kBound);
-    if (cache_.unsure.empty()) return DecideByContainment(Verdict::kSeparate, Tier::kBound);
+    FindTouched(!contacts_.empty());
+    for (const auto& [face_a, face_b] : contacts_) MarkTouched(face_a, face_b);
+    if (cache_.unsure.empty()) {
+      const Verdict otherwise = contacts_.empty() ? Verdict::kSeparate : Verdict::kTouch;
+      return DecideByContainment(otherwise, Tier::kBound);
+    }
     if (!is_exact_) return DecideUnsureInDoubles();
     return DecideUnsureExactly();
   }
@@ -91,10 +97,17 @@ class Query {
         }
         const Triage triage = Compare(~child_a, ~child_b);
         if (triage == Triage::kCross) return true;
-        if (triage == Triage::kUnsure) cache_.unsure.emplace_back(~child_a, ~child_b);
+        if (triage == Triage::kUnsure && !IsContact(~child_a, ~child_b)) {
+          cache_.unsure.emplace_back(~child_a, ~child_b);
+        }
       }
     }
     return false;
+  }
+
+  bool IsContact(int face_a, int face_b) const {
+    return std::find(contacts_.begin(), contacts_.end(), std::pair(face_a, face_b)) !=
+           contacts_.end();
   }
 
   // A face as a node of one lane.
@@ -120,7 +133,6 @@ class Query {
 
   MembershipResult DecideUnsureInDoubles() {
     // A component that is proven to lie inside settles it, whatever the rest does.
-    FindTouched(false);
     const auto contained = FindContained(nullptr);
     if (contained && *contained) return Decide(Verdict::kOverlap, Tier::kBound);
     return Decide(Verdict::kUndecided, Tier::kNone);
@@ -128,8 +140,8 @@ class Query {
 
   MembershipResult DecideUnsureExactly() {
     ExactContact contact(pair_, x_);
-    FindTouched(true);
-    bool is_touching = false;
+    if (contacts_.empty()) FindTouched(true);
+    bool is_touching = !contacts_.empty();
     for (const auto& [face_a, face_b] : cache_.unsure) {
       ++result_.exact_tests;
       const Verdict verdict = contact.Meet(face_a, face_b);
@@ -140,10 +152,7 @@ class Query {
       }
       if (verdict == Verdict::kOverlap) return Decide(verdict, Tier::kExact);
       is_touching = true;
-      if (!cache_.touched_a.empty()) {
-        cache_.touched_a[pair_.a().mesh.component_of_face(face_a)] = 1;
-        cache_.touched_b[pair_.b().mesh.component_of_face(face_b)] = 1;
-      }
+      MarkTouched(face_a, face_b);
     }
     return DecideByContainment(is_touching ? Verdict::kTouch : Verdict::kSeparate, Tier::kExact);
   }
@@ -154,8 +163,13 @@ class Query {
     cache_.touched_b.assign(make_room ? pair_.b().mesh.components().size() : 0, 0);
   }
 
+  void MarkTouched(int face_a, int face_b) {
+    if (cache_.touched_a.empty()) return;
+    cache_.touched_a[pair_.a().mesh.component_of_face(face_a)] = 1;
+    cache_.touched_b[pair_.b().mesh.component_of_face(face_b)] = 1;
+  }
+
   MembershipResult DecideByContainment(Verdict otherwise, Tier tier) {
-    if (tier == Tier::kBound) FindTouched(false);
     std::optional<ExactContact> contact;
     const auto contained = FindContained(is_exact_ ? &contact : nullptr);
     if (!contained) return Decide(Verdict::kUndecided, Tier::kNone);
@@ -210,6 +224,7 @@ class Query {
   const Translation& x_;
   const internal::Offset offset_;
   const bool is_exact_;
+  const std::span<const std::pair<int, int>> contacts_;
   MembershipCache& cache_;
   MembershipResult result_;
 };

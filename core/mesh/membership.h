@@ -16,6 +16,9 @@ namespace touchstone {
 
 struct MembershipOptions {
   Certainty certainty = Certainty::kExact;
+  // Pairs of a face of A and one of B that the caller knows to share a single point at this
+  // translation, near which the solids do not overlap. Spares doubles what they cannot tell.
+  std::span<const std::pair<int, int>> contacts = {};
 };
 
 struct MembershipResult {

@@ -176,7 +176,7 @@ class Arranger {
   }
 
   void ClassifyPair(int f, int g) {
-    if (AreNeighbors(f, g)) return;
+    if (AreNeighbors(f, g) || LieAcrossAnEdge(f, g)) return;
     CrossingPair pair{f, g, {}, {}};
     if (!FindSides(g, facet(f).plane, &pair.of_g)) return;
     if (std::all_of(pair.of_g.begin(), pair.of_g.end(), [](int side) { return side == 0; })) {
@@ -196,6 +196,24 @@ class Arranger {
     const bool is_face_of_a = x.kind == SumFacetKind::kFaceVertex;
     if (is_face_of_a ? x.b != y.b : x.a != y.a) return false;
     return ShareAnEdge(f, g);
+  }
+
+  // Whether the facets share an edge that they pass in opposite senses, and certainly face more or
+  // less the same way: if their planes are one they lie on either side of the edge, else they share
+  // no more than it. Neither cuts the other, and a plane may have two names.
+  bool LieAcrossAnEdge(int f, int g) const {
+    const ArrangedFacet &x = facet(f), &y = facet(g);
+    for (int k = 0; k < x.count; ++k) {
+      for (int l = 0; l < y.count; ++l) {
+        if (x.corners[k] != y.corners[(l + 1) % y.count] ||
+            x.corners[(k + 1) % x.count] != y.corners[l]) {
+          continue;
+        }
+        const SumPlane &p = geometry_.plane(x.plane), &q = geometry_.plane(y.plane);
+        return TriageSign(HeightAlong(p.normal, p.normal_error, q.normal, q.normal_error)) > 0;
+      }
+    }
+    return false;
   }
 
   // The sides that a facet's corners lie on; false if all lie strictly on one side.

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace touchstone::internal {
 namespace {
@@ -74,8 +75,10 @@ void GapFiller::ChoosePadding(const Motion& step, const ScaledBall& ball) {
   if (padding_.angle > 0.5) padding_ = {};
 }
 
-const std::vector<SumFacet>& GapFiller::Candidates(const MeshPair& pair, const ScaledBall& ball,
-                                                   SphereHierarchy* hierarchy) {
+const std::vector<GapCandidate>& GapFiller::Candidates(const MeshPair& pair, const GaussMap& map_a,
+                                                       const GaussMap& map_b,
+                                                       const ScaledBall& ball,
+                                                       SphereHierarchy* hierarchy) {
   const Frame now = FrameOf(pair, ball);
   const bool is_valid = has_gathered_ && now.scale == gathered_.scale &&
                         IsWithinPadding(MotionBetween(gathered_, now));
@@ -84,7 +87,7 @@ const std::vector<SumFacet>& GapFiller::Candidates(const MeshPair& pair, const S
     ChoosePadding(has_last_ ? MotionBetween(last_, now) : Motion(), ball);
     gathered_ = now;
     has_gathered_ = true;
-    Gather(pair, ball, hierarchy);
+    Gather(pair, map_a, map_b, ball, hierarchy);
   }
   last_ = now;
   has_last_ = true;
@@ -93,7 +96,8 @@ const std::vector<SumFacet>& GapFiller::Candidates(const MeshPair& pair, const S
 
 // First what may meet the ball; then what may meet such. Boxes that meet at a pose within the
 // padding come within `spread` of each other along every axis.
-void GapFiller::Gather(const MeshPair& pair, const ScaledBall& ball, SphereHierarchy* hierarchy) {
+void GapFiller::Gather(const MeshPair& pair, const GaussMap& map_a, const GaussMap& map_b,
+                       const ScaledBall& ball, SphereHierarchy* hierarchy) {
   ++gatherings_;
   hierarchy->Place(pair, padding_.angle);
   near_.Clear();
@@ -101,11 +105,12 @@ void GapFiller::Gather(const MeshPair& pair, const ScaledBall& ball, SphereHiera
   candidates_.clear();
   const double reach = ball.gathering_reach() + padding_.approach;
   hierarchy->Candidates(ball.center(), reach, &found_);
-  for (const SumFacet& candidate : found_) {
-    if (!MaySupport(pair, candidate)) continue;
+  for (SumFacet& candidate : found_) {
+    const MaySupport may = Triage(pair, map_a, map_b, &candidate);
+    if (may == MaySupport::kNever) continue;
     const FacetCorners corners = RoundedCorners(pair, candidate);
     if (DistanceToPolygon(ball.center(), corners.points.data(), corners.count) > reach) continue;
-    candidates_.push_back(candidate);
+    candidates_.push_back({candidate, may == MaySupport::kAlways});
     Box3 box = BoxOf(pair, corners);
     box.low -= Vector3d::Constant(padding_.spread);
     box.high += Vector3d::Constant(padding_.spread);
@@ -114,46 +119,58 @@ void GapFiller::Gather(const MeshPair& pair, const ScaledBall& ball, SphereHiera
   if (near_.empty()) return;
   const Box3& all = near_.all();
   found_.clear();
-  hierarchy->Candidates(0.5 * (all.low + all.high), 0.5 * (all.high - all.low).norm(), &found_);
-  for (const SumFacet& candidate : found_) {
+  hierarchy->Candidates(0.5 * (all.low + all.high), 0.5 * (all.high - all.low).norm(), &found_,
+                        &near_);
+  for (SumFacet& candidate : found_) {
     const FacetCorners corners = RoundedCorners(pair, candidate);
-    if (!near_.MeetsAny(BoxOf(pair, corners)) || !MaySupport(pair, candidate)) continue;
+    const Box3 box = BoxOf(pair, corners);
+    if (!near_.MayMeetAny(box)) continue;
+    const MaySupport may = Triage(pair, map_a, map_b, &candidate);
+    if (may == MaySupport::kNever || !near_.MeetsAny(box)) continue;
     if (DistanceToPolygon(ball.center(), corners.points.data(), corners.count) > reach) {
-      candidates_.push_back(candidate);
+      candidates_.push_back({candidate, may == MaySupport::kAlways});
     }
   }
 }
 
-bool GapFiller::MaySupport(const MeshPair& pair, const SumFacet& candidate) const {
-  switch (candidate.kind) {
+MaySupport GapFiller::Triage(const MeshPair& pair, const GaussMap& map_a, const GaussMap& map_b,
+                             SumFacet* candidate) const {
+  switch (candidate->kind) {
     case SumFacetKind::kFaceVertex:
-      return MayFaceVertex(pair.a(), candidate.a, pair.b(), candidate.b);
+      return TriageFaceVertex(pair.a(), candidate->a, pair.b(), map_b, candidate->b);
     case SumFacetKind::kVertexFace:
-      return MayFaceVertex(pair.b(), candidate.b, pair.a(), candidate.a);
+      return TriageFaceVertex(pair.b(), candidate->b, pair.a(), map_a, candidate->a);
     case SumFacetKind::kEdgeEdge:
-      return MayEdgeEdge(pair.a(), candidate.a, pair.b(), candidate.b);
+      return TriageEdgeEdge(pair.a(), candidate->a, pair.b(), candidate->b,
+                            &candidate->is_along_cross);
   }
-  return true;
+  return MaySupport::kSometimes;
 }
 
-// At any rotation within the angle, n.(w - v) changes by |n||w - v| times it at most.
-bool GapFiller::MayFaceVertex(const PlacedMesh& of_face, int face, const PlacedMesh& of_vertex,
-                              int vertex) const {
+// At any rotation within the angle, n.(w - v) changes by |n||w - v| times it at most. Where it is
+// above zero for all neighbours of a corner, that supports.
+MaySupport GapFiller::TriageFaceVertex(const PlacedMesh& of_face, int face,
+                                       const PlacedMesh& of_vertex, const GaussMap& map,
+                                       int vertex) const {
   const Vector3d& normal = of_face.planes[face].normal;
-  const double least =
-      -(padding_.angle + kSlack) * normal.norm() - 3.0 * of_face.planes[face].error;
+  const double length = normal.norm();
+  const double most = (padding_.angle + kSlack) * length + 3.0 * of_face.planes[face].error;
+  const double error = 4.0 * of_vertex.point_error * length;
   const Vector3d& v = of_vertex.points[vertex];
+  bool always = map.vertex_kind(vertex) == VertexKind::kCorner;
   for (const int h : of_vertex.mesh.vertex_half_edges(vertex)) {
     const Vector3d way = of_vertex.points[of_vertex.mesh.head(h)] - v;
-    const double error = 4.0 * of_vertex.point_error * normal.norm();
-    if (normal.dot(way) < least * way.norm() - error) return false;
+    const double height = normal.dot(way), bound = most * way.norm() + error;
+    if (height < -bound) return MaySupport::kNever;
+    always &= height > bound;
   }
-  return true;
+  return always ? MaySupport::kAlways : MaySupport::kSometimes;
 }
 
-// As SupportSigns::EdgeEdge has it: in one sense or the other no sign may be certain to fail.
-bool GapFiller::MayEdgeEdge(const PlacedMesh& a, int edge_a, const PlacedMesh& b,
-                            int edge_b) const {
+// As SupportSigns::EdgeEdge has it: in one sense or the other no sign may be certain to fail; where
+// all are certain to hold, they support.
+MaySupport GapFiller::TriageEdgeEdge(const PlacedMesh& a, int edge_a, const PlacedMesh& b,
+                                     int edge_b, bool* is_along_cross) const {
   const int ha = a.mesh.half_edge_of(edge_a), hb = b.mesh.half_edge_of(edge_b);
   const Vector3d along_a = a.points[a.mesh.head(ha)] - a.points[a.mesh.tail(ha)];
   const Vector3d along_b = b.points[b.mesh.head(hb)] - b.points[b.mesh.tail(hb)];
@@ -165,12 +182,13 @@ bool GapFiller::MayEdgeEdge(const PlacedMesh& a, int edge_a, const PlacedMesh& b
     const double value = plane.normal.dot(edge);
     return value > bound ? 1 : value < -bound ? -1 : 0;
   };
-  const int left_a = sign(a.planes[ha / 3], along_b, b);
-  const int right_a = sign(a.planes[a.mesh.twin(ha) / 3], along_b, b);
-  const int left_b = sign(b.planes[hb / 3], along_a, a);
-  const int right_b = sign(b.planes[b.mesh.twin(hb) / 3], along_a, a);
-  return (left_a >= 0 && right_a <= 0 && left_b >= 0 && right_b <= 0) ||
-         (left_a <= 0 && right_a >= 0 && left_b <= 0 && right_b >= 0);
+  const int signs[] = {
+      sign(a.planes[ha / 3], along_b, b), -sign(a.planes[a.mesh.twin(ha) / 3], along_b, b),
+      sign(b.planes[hb / 3], along_a, a), -sign(b.planes[b.mesh.twin(hb) / 3], along_a, a)};
+  const auto [least, greatest] = std::minmax_element(std::begin(signs), std::end(signs));
+  if (*least < 0 && *greatest > 0) return MaySupport::kNever;
+  *is_along_cross = *least > 0;
+  return *least > 0 || *greatest < 0 ? MaySupport::kAlways : MaySupport::kSometimes;
 }
 
 }  // namespace touchstone::internal

@@ -31,6 +31,15 @@ struct Motion {
   double approach = 0.0;  // by which a point of M nears the ball at most
 };
 
+// Of two features, at all poses within a padding.
+enum class MaySupport { kNever, kSometimes, kAlways };
+
+// Named as a facet; `is_along_cross` is set where they always support.
+struct GapCandidate {
+  SumFacet facet;
+  bool always_supports;
+};
+
 class GapFiller {
  public:
   explicit GapFiller(const TriangleMesh& b);
@@ -38,8 +47,9 @@ class GapFiller {
   // Candidates that hold every facet that meets the ball, and every one that meets such a facet.
   // Complexity: O(1) while the motion since the last gathering stays within the padding, else that
   // of a gathering; both per candidate.
-  const std::vector<SumFacet>& Candidates(const MeshPair& pair, const ScaledBall& ball,
-                                          SphereHierarchy* hierarchy);
+  const std::vector<GapCandidate>& Candidates(const MeshPair& pair, const GaussMap& map_a,
+                                              const GaussMap& map_b, const ScaledBall& ball,
+                                              SphereHierarchy* hierarchy);
   long gatherings() const { return gatherings_; }
 
  private:
@@ -52,18 +62,23 @@ class GapFiller {
   Motion MotionBetween(const Frame& x, const Frame& y) const;
   bool IsWithinPadding(const Motion& motion) const;
   void ChoosePadding(const Motion& step, const ScaledBall& ball);
-  void Gather(const MeshPair& pair, const ScaledBall& ball, SphereHierarchy* hierarchy);
-  bool MaySupport(const MeshPair& pair, const SumFacet& candidate) const;
-  bool MayFaceVertex(const PlacedMesh& of_face, int face, const PlacedMesh& of_vertex,
-                     int vertex) const;
-  bool MayEdgeEdge(const PlacedMesh& a, int edge_a, const PlacedMesh& b, int edge_b) const;
+  void Gather(const MeshPair& pair, const GaussMap& map_a, const GaussMap& map_b,
+              const ScaledBall& ball, SphereHierarchy* hierarchy);
+  // Sets the facet's `is_along_cross`.
+  MaySupport Triage(const MeshPair& pair, const GaussMap& map_a, const GaussMap& map_b,
+                    SumFacet* candidate) const;
+  MaySupport TriageFaceVertex(const PlacedMesh& of_face, int face, const PlacedMesh& of_vertex,
+                              const GaussMap& map, int vertex) const;
+  MaySupport TriageEdgeEdge(const PlacedMesh& a, int edge_a, const PlacedMesh& b, int edge_b,
+                            bool* is_along_cross) const;
 
   Eigen::Vector3d middle_of_b_;  // in B's frame
   double radius_of_b_;           // round it
   bool has_gathered_ = false, has_last_ = false;
   Frame gathered_, last_;
   Motion padding_;
-  std::vector<SumFacet> found_, candidates_;
+  std::vector<SumFacet> found_;
+  std::vector<GapCandidate> candidates_;
   NearBoxes near_;
   long gatherings_ = 0;
 };

@@ -39,6 +39,16 @@ Box3 BoxOf(const MeshPair& pair, const FacetCorners& corners) {
 }
 
 bool MeetsBall(const FacetCorners& corners, const ScaledBall& ball) {
+  // First whether all corners lie beyond it along an axis.
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = corners.points[0][axis], high = low;
+    for (int k = 1; k < corners.count; ++k) {
+      low = std::min(low, corners.points[k][axis]);
+      high = std::max(high, corners.points[k][axis]);
+    }
+    const double at = ball.center()[axis], reach = ball.gathering_reach();
+    if (low - at > reach || at - high > reach) return false;
+  }
   return DistanceToPolygon(ball.center(), corners.points.data(), corners.count) <=
          ball.gathering_reach();
 }

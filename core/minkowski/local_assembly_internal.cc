@@ -112,27 +112,43 @@ class Assembler {
   // from one side: they have no other contact than their facet's, so just outside ∂M's M° ends. One
   // faced from both may be an exact slot.) Of a piece that is not in the ball not all may be known.
   void FormPatches() {
-    cells_of_piece_.resize(complex_.pieces.size());
-    for (int c = 0; c < cell_count(); ++c) {
-      for (const int piece : cell(c).pieces) cells_of_piece_[piece].push_back(c);
-    }
+    ListCellsOfPieces();
     patch_.resize(complex_.cells.size());
     std::iota(patch_.begin(), patch_.end(), 0);
-    for (std::size_t i = 0; i < cells_of_piece_.size(); ++i) {
-      const std::vector<int>& cells = cells_of_piece_[i];
+    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
+      const std::span<const int> cells = CellsAt(i);
       if (cells.size() == 2 && IsKnown(i)) patch_[Patch(cells[0])] = Patch(cells[1]);
     }
     is_buried_.assign(complex_.cells.size(), 0);
     for (int c = 0; c < cell_count(); ++c) is_buried_[Patch(c)] |= cell(c).is_buried;
-    for (std::size_t i = 0; i < cells_of_piece_.size(); ++i) {
-      if (cells_of_piece_[i].size() > 2 && IsKnown(i)) JoinOverCrossing(cells_of_piece_[i]);
+    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
+      if (CellsAt(i).size() > 2 && IsKnown(i)) JoinOverCrossing(CellsAt(i));
     }
     for (int c = 0; c < cell_count(); ++c) patch_[c] = Patch(c);
   }
 
+  // In the order of cells.
+  void ListCellsOfPieces() {
+    first_cell_.assign(complex_.pieces.size() + 1, 0);
+    for (int c = 0; c < cell_count(); ++c) {
+      for (const int piece : cell(c).pieces) ++first_cell_[piece + 1];
+    }
+    std::partial_sum(first_cell_.begin(), first_cell_.end(), first_cell_.begin());
+    cells_at_pieces_.resize(first_cell_.back());
+    std::vector<int> next(first_cell_.begin(), first_cell_.end() - 1);
+    for (int c = 0; c < cell_count(); ++c) {
+      for (const int piece : cell(c).pieces) cells_at_pieces_[next[piece]++] = c;
+    }
+  }
+
+  std::span<const int> CellsAt(std::size_t piece) const {
+    return std::span(cells_at_pieces_)
+        .subspan(first_cell_[piece], first_cell_[piece + 1] - first_cell_[piece]);
+  }
+
   bool IsKnown(std::size_t piece) const { return is_whole_ || is_near_[piece]; }
 
-  void JoinOverCrossing(const std::vector<int>& cells) {
+  void JoinOverCrossing(std::span<const int> cells) {
     std::array<int, 2> open{};
     int count = 0;
     for (const int c : cells) {
@@ -216,18 +232,18 @@ class Assembler {
       if (area > largest) largest = area, triangle = t;
     }
     if (largest < 0.0) return false;
-    const Sample sample = SampleIn(&geometry_, arrangement_.facets[FacetOf(c)], triangle);
-    const Verdict verdict = VerdictAt(sample);
+    ++sum_.memberships;
+    const Verdict verdict =
+        VerdictIn(&geometry_, arrangement_.facets[FacetOf(c)], triangle, &cache_);
     sum_.detached_patches += verdict == Verdict::kSeparate;
     return verdict != Verdict::kOverlap;
   }
 
   int FacetOf(int c) const { return cell(c).along.empty() ? cell(c).against[0] : cell(c).along[0]; }
 
-  Verdict VerdictAt(const Sample& sample) {
+  bool IsMiddleInM(int x, int y) {
     ++sum_.memberships;
-    return Membership(pair_, Translation(sample.rounded, sample.error, sample.exact), {}, &cache_)
-        .verdict;
+    return VerdictBetween(&geometry_, x, y, &cache_) == Verdict::kOverlap;
   }
 
   void AddCells() {
@@ -279,7 +295,7 @@ class Assembler {
         for (const auto& [plane, side] : planes) planes_of_points.push_back({point, plane, side});
       }
       if (IsNearKept(i) || planes.size() < 3) continue;
-      if (VerdictAt(SampleBetween(&geometry_, piece.from, piece.to)) == Verdict::kOverlap) continue;
+      if (IsMiddleInM(piece.from, piece.to)) continue;
       segments_.push_back(piece);
     }
     for (const Piece& piece : segments_) {
@@ -290,7 +306,7 @@ class Assembler {
   }
 
   bool IsNearKept(std::size_t piece) const {
-    const std::vector<int>& cells = cells_of_piece_[piece];
+    const std::span<const int> cells = CellsAt(piece);
     return std::any_of(cells.begin(), cells.end(), [&](int c) { return is_kept_[patch_[c]] != 0; });
   }
 
@@ -301,7 +317,7 @@ class Assembler {
   // The planes of the cells at a piece, by which way they face.
   const std::vector<std::array<int, 2>>& PlanesOf(std::size_t piece) {
     planes_.clear();
-    for (const int c : cells_of_piece_[piece]) {
+    for (const int c : CellsAt(piece)) {
       const int root = arrangement_.groups[cell(c).group].plane;
       if (!cell(c).along.empty()) planes_.push_back({root, 1});
       if (!cell(c).against.empty()) planes_.push_back({root, 0});
@@ -320,7 +336,7 @@ class Assembler {
       const auto end =
           std::find_if(first, last, [&](const std::array<int, 3>& x) { return x[0] != point; });
       if (end - first >= 4 && !is_near_kept[point] && IsInBall(point) &&
-          VerdictAt(SampleBetween(&geometry_, point, point)) != Verdict::kOverlap) {
+          !IsMiddleInM(point, point)) {
         sum_.points.push_back(AddPoint(point));
       }
       first = end;
@@ -361,9 +377,9 @@ class Assembler {
   SumGeometry geometry_;
   Arrangement arrangement_;
   CellComplex complex_;
-  std::vector<char> is_near_;      // pieces: in the ball
-  std::vector<char> is_selected_;  // cells: meet the ball
-  std::vector<std::vector<int>> cells_of_piece_;
+  std::vector<char> is_near_;                      // pieces: in the ball
+  std::vector<char> is_selected_;                  // cells: meet the ball
+  std::vector<int> first_cell_, cells_at_pieces_;  // where each piece's begin; the cells at it
   std::vector<int> patch_;
   std::vector<char> is_buried_;                             // by patch
   std::vector<char> is_kept_;                               // by patch

@@ -75,9 +75,21 @@ class LocalMinkowskiSum::Implementation {
   const MeshPair& pair() const { return pair_; }
 
  private:
+  // Keeps the storage.
   void Clear() {
-    LocalSum empty;
-    std::swap(sum_, empty);
+    sum_.status = {};
+    sum_.rounding = 0.0;
+    sum_.reused = false;
+    sum_.detached_patches = 0;
+    for (long* count : {&sum_.candidates, &sum_.gathered, &sum_.facet_pairs, &sum_.crossings,
+                        &sum_.cells, &sum_.patches, &sum_.memberships, &sum_.exact_signs}) {
+      *count = 0;
+    }
+    const auto clear = [](auto&... lists) { (lists.clear(), ...); };
+    clear(sum_.names, sum_.vertices, sum_.facets, sum_.changes, sum_.dropped, sum_.triangles,
+          sum_.facet_of_triangle, sum_.cell_of_triangle, sum_.neighbors, sum_.triangle_normals,
+          sum_.vertex_normals, sum_.is_border_vertex, sum_.sheets, sum_.facet_of_sheet,
+          sum_.segments, sum_.points);
   }
 
   void Gather(const internal::ScaledBall& ball) {
@@ -137,14 +149,16 @@ class LocalMinkowskiSum::Implementation {
   void GatherByGapFilling(const internal::ScaledBall& ball) {
     internal::SupportSigns signs(pair_, map_a_, map_b_);
     const long gatherings = gap_filler_->gatherings();
-    const std::vector<SumFacet>& candidates = gap_filler_->Candidates(pair_, ball, &*hierarchy_);
+    const std::vector<internal::GapCandidate>& candidates =
+        gap_filler_->Candidates(pair_, map_a_, map_b_, ball, &*hierarchy_);
     sum_.reused = gap_filler_->gatherings() == gatherings;
     sum_.candidates = static_cast<long>(candidates.size());
     near_.Clear();
     supported_.clear();
     others_.clear();
-    for (const SumFacet& candidate : candidates) {
-      const auto facet = Supported(&signs, candidate);
+    for (const auto& [candidate, always_supports] : candidates) {
+      const std::optional<SumFacet> facet =
+          always_supports ? candidate : Supported(&signs, candidate);
       if (!facet) continue;
       const internal::FacetCorners corners = internal::RoundedCorners(pair_, *facet);
       const Box3 box = internal::BoxOf(pair_, corners);
@@ -165,7 +179,7 @@ class LocalMinkowskiSum::Implementation {
     const Box3& all = near_.all();
     candidates_.clear();
     hierarchy_->Candidates(0.5 * (all.low + all.high), 0.5 * (all.high - all.low).norm(),
-                           &candidates_);
+                           &candidates_, &near_);
     sum_.candidates += static_cast<long>(candidates_.size());
     for (const SumFacet& candidate : candidates_) {
       const internal::FacetCorners corners = internal::RoundedCorners(pair_, candidate);

@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace touchstone::internal {
 namespace {
@@ -36,10 +38,17 @@ Sample MeanOf(SumGeometry* geometry, const std::array<int, 3>& points) {
 // A number near `value` of few bits, so that exact numbers made with it stay short.
 double Short(double value) { return std::round(value * 0x1p20) * 0x1p-20; }
 
-// corner + s (next - corner) + t (previous - corner) near the triangle's middle, for short s and t,
-// if doubles can tell that it lies inside.
-std::optional<Sample> TryInFacet(SumGeometry* geometry, const ArrangedFacet& facet,
-                                 const std::array<int, 3>& triangle) {
+// corner + s (next - corner) + t (previous - corner) near a triangle's middle, for short s and t;
+// and its rounding in true lengths.
+struct PlaceInFacet {
+  double s, t;
+  Vector3d rounded;
+  double error;
+};
+
+// If doubles can tell that it lies inside.
+std::optional<PlaceInFacet> TryInFacet(SumGeometry* geometry, const ArrangedFacet& facet,
+                                       const std::array<int, 3>& triangle) {
   const int last = facet.corners[facet.count - 1];
   const SumPoint &p = geometry->point(facet.corners[0]), &q = geometry->point(facet.corners[1]),
                  &r = geometry->point(last);
@@ -60,29 +69,119 @@ std::optional<Sample> TryInFacet(SumGeometry* geometry, const ArrangedFacet& fac
                                    geometry->point(triangle[(k + 1) % 3]), x, axis);
   };
   if (turn(0) == 0 || turn(1) != turn(0) || turn(2) != turn(0)) return std::nullopt;
-  Sample sample;
-  const DyadicVector& origin = geometry->Exact(facet.corners[0]).coordinates;
-  sample.exact.coordinates = origin +
-                             Dyadic(s) * (geometry->Exact(facet.corners[1]).coordinates - origin) +
-                             Dyadic(t) * (geometry->Exact(last).coordinates - origin);
-  sample.exact.denominator = geometry->factor();
   const double scale = geometry->pair().scale();
-  sample.rounded = x.rounded / scale;
-  sample.error = x.error / scale;
-  return sample;
+  return PlaceInFacet{s, t, x.rounded / scale, x.error / scale};
+}
+
+Sample MakeExact(SumGeometry* geometry, const ArrangedFacet& facet, const PlaceInFacet& place) {
+  const DyadicVector& origin = geometry->Exact(facet.corners[0]).coordinates;
+  const DyadicVector u = geometry->Exact(facet.corners[1]).coordinates - origin;
+  const DyadicVector v = geometry->Exact(facet.corners[facet.count - 1]).coordinates - origin;
+  return {place.rounded,
+          place.error,
+          {origin + Dyadic(place.s) * u + Dyadic(place.t) * v, geometry->factor()}};
+}
+
+// Whether all vertices of a face but those of the contact lie certainly on one side of the
+// contact's plane, whose normal is given, through a vertex of it.
+bool IsClearOf(const PlacedMesh& placed, int face, const Vector3d& normal, double normal_error,
+               int on_plane, int also_on_plane, int side) {
+  for (const int w : placed.mesh.face(face)) {
+    if (w == on_plane || w == also_on_plane) continue;
+    const Vector3d way = placed.points[w] - placed.points[on_plane];
+    const double error = 1.01 * (2.0 * placed.point_error + kUnit * way.cwiseAbs().maxCoeff());
+    if (TriageSign(HeightAlong(normal, normal_error, way, error)) != side) return false;
+  }
+  return true;
+}
+
+// The faces that meet at a contact strictly within the facet's features, each pair of them in that
+// point alone: they lie on either side of the facet's plane. What supports does not overlap.
+std::vector<std::pair<int, int>> ContactsIn(const SumGeometry& geometry,
+                                            const ArrangedFacet& facet) {
+  const MeshPair& pair = geometry.pair();
+  const SumPlane& plane = geometry.plane(facet.plane);
+  const SumFacet& name = facet.name;
+  std::vector<std::pair<int, int>> contacts;
+  if (name.kind == SumFacetKind::kEdgeEdge) {
+    const TriangleMesh &a = pair.a().mesh, &b = pair.b().mesh;
+    const int ha = a.half_edge_of(name.a), hb = b.half_edge_of(name.b);
+    for (const int of_a : {ha, a.twin(ha)}) {
+      for (const int of_b : {hb, b.twin(hb)}) {
+        if (IsClearOf(pair.a(), of_a / 3, plane.normal, plane.normal_error, a.tail(ha), a.head(ha),
+                      -1) &&
+            IsClearOf(pair.b(), of_b / 3, plane.normal, plane.normal_error, b.tail(hb), b.head(hb),
+                      1)) {
+          contacts.emplace_back(of_a / 3, of_b / 3);
+        }
+      }
+    }
+    return contacts;
+  }
+  const bool is_face_of_a = name.kind == SumFacetKind::kFaceVertex;
+  const PlacedMesh& of_vertex = is_face_of_a ? pair.b() : pair.a();
+  const int vertex = is_face_of_a ? name.b : name.a;
+  for (const int h : of_vertex.mesh.vertex_half_edges(vertex)) {
+    const int face = TriangleMesh::face_of(h);
+    if (!IsClearOf(of_vertex, face, plane.normal, plane.normal_error, vertex, vertex,
+                   is_face_of_a ? 1 : -1)) {
+      continue;
+    }
+    contacts.emplace_back(is_face_of_a ? name.a : face, is_face_of_a ? face : name.b);
+  }
+  return contacts;
+}
+
+Verdict InDoubles(const MeshPair& pair, const Vector3d& rounded, double error,
+                  std::span<const std::pair<int, int>> contacts, MembershipCache* cache) {
+  Translation x(rounded);
+  x.error = error;
+  return Membership(pair, x, {Certainty::kFloat, contacts}, cache).verdict;
+}
+
+Verdict Exactly(const MeshPair& pair, const Sample& sample, MembershipCache* cache) {
+  return Membership(pair, Translation(sample.rounded, sample.error, sample.exact), {}, cache)
+      .verdict;
 }
 
 }  // namespace
 
 Sample SampleIn(SumGeometry* geometry, const ArrangedFacet& facet,
                 const std::array<int, 3>& triangle) {
-  if (const auto sample = TryInFacet(geometry, facet, triangle)) return *sample;
+  if (const auto place = TryInFacet(geometry, facet, triangle)) {
+    return MakeExact(geometry, facet, *place);
+  }
   return MeanOf(geometry, triangle);
 }
 
 Sample SampleBetween(SumGeometry* geometry, int x, int y) {
   // Thirds are as good as halves.
   return MeanOf(geometry, {x, y, y});
+}
+
+Verdict VerdictIn(SumGeometry* geometry, const ArrangedFacet& facet,
+                  const std::array<int, 3>& triangle, MembershipCache* cache) {
+  const MeshPair& pair = geometry->pair();
+  const auto place = TryInFacet(geometry, facet, triangle);
+  if (!place) return Exactly(pair, MeanOf(geometry, triangle), cache);
+  const auto contacts = ContactsIn(*geometry, facet);
+  const Verdict verdict = InDoubles(pair, place->rounded, place->error, contacts, cache);
+  if (verdict != Verdict::kUndecided) return verdict;
+  return Exactly(pair, MakeExact(geometry, facet, *place), cache);
+}
+
+Verdict VerdictBetween(SumGeometry* geometry, int x, int y, MembershipCache* cache) {
+  const SumPoint &p = geometry->point(x), &q = geometry->point(y);
+  // Within the sum of a third of one error and two of the other; three roundings of numbers below
+  // eight.
+  const double error = std::max(p.error, q.error) + 32.0 * kUnit;
+  if (error < 0x1p-30) {
+    const double scale = geometry->pair().scale();
+    const Vector3d middle = (p.rounded + 2.0 * q.rounded) / 3.0;
+    const Verdict verdict = InDoubles(geometry->pair(), middle / scale, error / scale, {}, cache);
+    if (verdict != Verdict::kUndecided) return verdict;
+  }
+  return Exactly(geometry->pair(), SampleBetween(geometry, x, y), cache);
 }
 
 double SquaredArea(const SumGeometry& geometry, const std::array<int, 3>& triangle) {

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "touchstone/core/base/verdict.h"
+#include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/mesh/translation.h"
 #include "touchstone/core/minkowski/arrangement_internal.h"
 #include "touchstone/core/minkowski/sum_geometry_internal.h"
@@ -24,6 +26,12 @@ Sample SampleIn(SumGeometry* geometry, const ArrangedFacet& facet,
 
 // The middle between two points.
 Sample SampleBetween(SumGeometry* geometry, int x, int y);
+
+// Whether B moved to the same samples overlaps A: first with the samples' roundings, and with big
+// numbers only where doubles cannot tell.
+Verdict VerdictIn(SumGeometry* geometry, const ArrangedFacet& facet,
+                  const std::array<int, 3>& triangle, MembershipCache* cache);
+Verdict VerdictBetween(SumGeometry* geometry, int x, int y, MembershipCache* cache);
 
 // Four times the square of a triangle's area, rounded.
 double SquaredArea(const SumGeometry& geometry, const std::array<int, 3>& triangle);

@@ -117,6 +117,15 @@ LaneBound LaneOf(const Node& node, int lane) {
           node.sine[lane]};
 }
 
+// Round the sum of two lanes' spheres.
+Box3 BoxOfSum(const Node& a, int lane_a, const Node& b, int lane_b) {
+  const Vector3d center(a.center[0][lane_a] + b.center[0][lane_b],
+                        a.center[1][lane_a] + b.center[1][lane_b],
+                        a.center[2][lane_a] + b.center[2][lane_b]);
+  const Vector3d reach = Vector3d::Constant(a.radius[lane_a] + b.radius[lane_b]);
+  return {center - reach, center + reach};
+}
+
 // Widened by the padding.
 LaneBound Padded(const FeatureBound& bound) {
   const bool is_all = bound.cone.cosine <= 0.0;
@@ -297,53 +306,51 @@ void SphereHierarchy::Place(const MeshPair& pair, double widening) {
 }
 
 void SphereHierarchy::Candidates(const Vector3d& center, double radius,
-                                 std::vector<SumFacet>* candidates) {
-  Pairs(kFaces, kVertices, SumFacetKind::kFaceVertex, center, radius, candidates);
-  Pairs(kVertices, kFaces, SumFacetKind::kVertexFace, center, radius, candidates);
-  Pairs(kEdges, kEdges, SumFacetKind::kEdgeEdge, center, radius, candidates);
+                                 std::vector<SumFacet>* candidates, const NearBoxes* near) {
+  Pairs(kFaces, kVertices, SumFacetKind::kFaceVertex, center, radius, near, candidates);
+  Pairs(kVertices, kFaces, SumFacetKind::kVertexFace, center, radius, near, candidates);
+  Pairs(kEdges, kEdges, SumFacetKind::kEdgeEdge, center, radius, near, candidates);
 }
 
 // Of two nodes the larger is opened first, against all of the other: few of its lanes are left.
 void SphereHierarchy::Pairs(Kind kind_a, Kind kind_b, SumFacetKind kind, const Vector3d& center,
-                            double radius, std::vector<SumFacet>* candidates) {
+                            double radius, const NearBoxes* near,
+                            std::vector<SumFacet>* candidates) {
   PlacedSphereConeTree &tree_a = trees_[0][kind_a], &tree_b = trees_[1][kind_b];
   if (tree_a.empty() || tree_b.empty()) return;
-  // A node, or ~(8 node + lane) for a lane that holds an item.
-  const auto lane_name = [](int node, int lane) { return ~(kWidth * node + lane); };
-  // Of lanes that meet; `i` and `j` name nodes or lanes as they will be pushed.
-  const auto add = [&](int child_a, int child_b, int i, int j) {
-    if (child_a < 0 && child_b < 0) {
-      candidates->push_back({kind, false, ~child_a, ~child_b});
-    } else {
-      stack_.emplace_back(child_a >= 0 ? child_a : i, child_b >= 0 ? child_b : j);
-    }
-  };
   const auto each = [](unsigned mask, const auto& visit) {
     for (; mask != 0; mask &= mask - 1) visit(std::countr_zero(mask));
   };
+  // A node, or ~(8 node + lane) for a lane that holds an item.
   stack_.assign(1, {0, 0});
   while (!stack_.empty()) {
     const auto [i, j] = stack_.back();
     stack_.pop_back();
-    const Node& a = tree_a.node(i < 0 ? ~i / kWidth : i);
-    const Node& b = tree_b.node(j < 0 ? ~j / kWidth : j);
+    const int node_a = i < 0 ? ~i / kWidth : i, node_b = j < 0 ? ~j / kWidth : j;
+    const Node& a = tree_a.node(node_a);
+    const Node& b = tree_b.node(node_b);
+    const auto add = [&](int k, int l) {
+      const int child_a = a.children[k], child_b = b.children[l];
+      if (child_a < 0 && child_b < 0) {
+        candidates->push_back({kind, false, ~child_a, ~child_b});
+      } else if (near == nullptr || near->MeetsAny(BoxOfSum(a, k, b, l))) {
+        stack_.emplace_back(child_a >= 0 ? child_a : ~(kWidth * node_a + k),
+                            child_b >= 0 ? child_b : ~(kWidth * node_b + l));
+      }
+    };
     if (i < 0) {
-      const int lane = ~i % kWidth;
-      each(MeetingLanes(b, LaneOf(a, lane), center, radius),
-           [&, i = i, j = j](int l) { add(a.children[lane], b.children[l], i, lane_name(j, l)); });
+      const int k = ~i % kWidth;
+      each(MeetingLanes(b, LaneOf(a, k), center, radius), [&](int l) { add(k, l); });
     } else if (j < 0) {
-      const int lane = ~j % kWidth;
-      each(MeetingLanes(a, LaneOf(b, lane), center, radius),
-           [&, i = i, j = j](int k) { add(a.children[k], b.children[lane], lane_name(i, k), j); });
+      const int l = ~j % kWidth;
+      each(MeetingLanes(a, LaneOf(b, l), center, radius), [&](int k) { add(k, l); });
     } else if (a.all.radius >= b.all.radius) {
-      each(MeetingLanes(a, b.all, center, radius), [&, i = i, j = j](int k) {
-        each(MeetingLanes(b, LaneOf(a, k), center, radius),
-             [&](int l) { add(a.children[k], b.children[l], lane_name(i, k), lane_name(j, l)); });
+      each(MeetingLanes(a, b.all, center, radius), [&](int k) {
+        each(MeetingLanes(b, LaneOf(a, k), center, radius), [&](int l) { add(k, l); });
       });
     } else {
-      each(MeetingLanes(b, a.all, center, radius), [&, i = i, j = j](int l) {
-        each(MeetingLanes(a, LaneOf(b, l), center, radius),
-             [&](int k) { add(a.children[k], b.children[l], lane_name(i, k), lane_name(j, l)); });
+      each(MeetingLanes(b, a.all, center, radius), [&](int l) {
+        each(MeetingLanes(a, LaneOf(b, l), center, radius), [&](int k) { add(k, l); });
       });
     }
   }

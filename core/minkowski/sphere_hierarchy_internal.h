@@ -99,13 +99,15 @@ class SphereHierarchy {
   void Place(const MeshPair& pair, double widening = 0.0);
 
   // All pairs of features, named as facets, whose cones meet and whose sum may meet a ball, and
-  // some others. Edges' `is_along_cross` is not set. Complexity: O(k + log n) on round bodies.
-  void Candidates(const Eigen::Vector3d& center, double radius, std::vector<SumFacet>* candidates);
+  // some others. Edges' `is_along_cross` is not set. Where boxes are given, pairs whose sum comes
+  // near none of them may be left out. Complexity: O(k + log n) on round bodies.
+  void Candidates(const Eigen::Vector3d& center, double radius, std::vector<SumFacet>* candidates,
+                  const NearBoxes* near = nullptr);
 
  private:
   enum Kind { kFaces, kVertices, kEdges, kKinds };
   void Pairs(Kind kind_a, Kind kind_b, SumFacetKind kind, const Eigen::Vector3d& center,
-             double radius, std::vector<SumFacet>* candidates);
+             double radius, const NearBoxes* near, std::vector<SumFacet>* candidates);
 
   std::vector<PlacedSphereConeTree> trees_[2];  // of A; of B, reflected: centres add
   std::vector<std::pair<int, int>> stack_;

@@ -87,6 +87,61 @@ TEST(LocalSumMotion, FeaturesAlignAppearAndVanish) {
   EXPECT_GT(compared, 200u);
 }
 
+// Fans of slivers round one vertex in one plane, walls of many coplanar faces, and bodies that turn
+// about an axis that keeps such planes parallel: facets lie in one plane all along, and overlap
+// there.
+TEST(LocalSumMotion, CoplanarNeighboursAndFans) {
+  testing::Random random(59);
+  std::size_t compared = 0;
+  const std::pair<Shape, Shape> pairs[] = {{Cone(12, 2.0, 3.0), Cone(8, 1.0, 2.0)},
+                                           {Cone(9, 2.0, 1.0), Spiked(7)},
+                                           {Slot(), Gear(6)},
+                                           {Pocket(), LShape()}};
+  const double half_turn = std::numbers::pi;
+  for (const auto& [a, b] : pairs) {
+    Builders builders(a, b);
+    for (const double flip : {0.0, half_turn}) {
+      const Vector3d way = (Vector3d(0, 0, flip > 0.0 ? 1 : -1) + 0.1 * random.Direction());
+      Ball ball{Vector3d::Zero(), 0.2 * builders.size()};
+      for (const double angle : {0.0, 1e-12, 1e-3, 1e-3 + 1e-6, 0.25 * half_turn, half_turn,
+                                 half_turn + 1e-9, 2.0 * half_turn - 1e-3, 0.0}) {
+        SCOPED_TRACE(std::to_string(flip) + ' ' + std::to_string(angle));
+        const Matrix3d rotation =
+            (AngleAxisd(angle, Vector3d::UnitZ()) * AngleAxisd(flip, Vector3d::UnitX()))
+                .toRotationMatrix();
+        const RelativePose pose = PoseOf(rotation, Vector3d(0.25, 0.125, 0.0));
+        if (angle == 0.0) ball.center = ExitPoint(builders, pose, Vector3d(0.3, 0.2, 0.1), way);
+        compared += builders.Compare(pose, ball, true);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+  EXPECT_GT(compared, 1000u);
+}
+
+// Where the next pose is as far as can be, and the one after it near the first again.
+TEST(LocalSumMotion, HalfTurnsThereAndBack) {
+  testing::Random random(60);
+  std::size_t compared = 0;
+  for (const auto& [name_a, name_b] :
+       {std::pair("torus", "u"), std::pair("spoon", "star"), std::pair("tori", "l")}) {
+    SCOPED_TRACE(name_a);
+    Builders builders(NamedShape(name_a, 60), NamedShape(name_b, 36));
+    const Matrix3d first = random.Rotation();
+    const Vector3d axis = random.Direction();
+    const Ball ball{ExitPoint(builders, PoseOf(first), Vector3d::Zero(), random.Direction()),
+                    0.25 * builders.size()};
+    for (int i = 0; i < 12; ++i) {
+      SCOPED_TRACE(i);
+      const double angle = (i % 2) * std::numbers::pi + 1e-4 * i;
+      const Matrix3d rotation = AngleAxisd(angle, axis).toRotationMatrix() * first;
+      compared += builders.Compare(PoseOf(rotation), ball, true);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(compared, 500u);
+}
+
 TEST(LocalSumMotion, BallLeavesAndReturns) {
   testing::Random random(52);
   Builders builders(NamedShape("star", 40), NamedShape("l", 36));
