@@ -38,6 +38,14 @@ std::vector<std::string> JudgeMeshDepth(const TriangleMesh& a, const TriangleMes
                                         const RelativePose& pose, const MeshDepthClaim& claim,
                                         const DepthJudgeOptions& options = {});
 
+// What is wrong with the claim by the whole boundary of M° from Nef polyhedra: the distance of the
+// origin from it, in doubles of exact corners, must lie between the bounds up to 1e-12 of the size;
+// of exact slots, only their corners and the middles of their edges are asked, which the lower
+// bound may not pass. Seconds to minutes: see MakeNefMeshSum.
+std::vector<std::string> JudgeMeshDepthByNef(const TriangleMesh& a, const TriangleMesh& b,
+                                             const RelativePose& pose,
+                                             const MeshDepthClaim& claim);
+
 }  // namespace touchstone::exact
 
 #endif  // TOUCHSTONE_EXACT_JUDGE_CPD_H_

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <ostream>
 
+#include "touchstone/core/mesh/membership.h"
+#include "touchstone/core/minkowski/local_sum.h"
 #include "touchstone/exact/judge_cpd.h"
 #include "touchstone/tools/numbers.h"
 #include "touchstone/tools/table.h"
@@ -31,7 +33,7 @@ struct Times {
     return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
   }
   CpdBenchRow Row(const std::string& scene, const std::string& method) const {
-    return {scene, method, At(0.5), At(0.99), static_cast<int>(ms.size()), 0, 0, 0};
+    return {scene, method, At(0.5), At(0.99), static_cast<int>(ms.size()), 0, 0, 0, 0};
   }
 };
 
@@ -146,25 +148,25 @@ bool HasJump(const std::function<Vector3d(double)>& at, double from, double to) 
   return !IsSmallStep(p, q);
 }
 
-bool HasCpdEvent(const PaperScene& scene, ContinuousPenetrationDepth* solver,
-                 const ContinuousDepthState& state, double from, double to) {
+CpdEvent FindCpdEvent(const PaperScene& scene, ContinuousPenetrationDepth* solver,
+                      const ContinuousDepthState& state, double from, double to) {
   ContinuousDepthState at_from = state;
   solver->set_state(at_from);
-  Vector3d p = state.translation, q = solver->Update(scene.PoseAt(to)).translation;
-  for (int i = 0; i < kBisections && !IsSmallStep(p, q); ++i) {
+  ContinuousDepthResult last = solver->Update(scene.PoseAt(to));
+  for (int i = 0; i < kBisections && !IsSmallStep(at_from.translation, last.translation); ++i) {
     const double middle = 0.5 * (from + to);
     solver->set_state(at_from);
-    const Vector3d x = solver->Update(scene.PoseAt(middle)).translation;
+    const ContinuousDepthResult result = solver->Update(scene.PoseAt(middle));
     const auto at_middle = solver->state();
-    if (!at_middle || !IsSmallStep(p, x)) {
-      to = middle, q = x;
+    if (!at_middle || !IsSmallStep(at_from.translation, result.translation)) {
+      to = middle, last = result;
       continue;
     }
     // Followed to the middle: is the rest of the step small from there?
-    from = middle, p = x, at_from = *at_middle;
-    q = solver->Update(scene.PoseAt(to)).translation;
+    from = middle, at_from = *at_middle;
+    last = solver->Update(scene.PoseAt(to));
   }
-  return !IsSmallStep(p, q);
+  return {!IsSmallStep(at_from.translation, last.translation), last.iterations > 0};
 }
 
 std::vector<std::string> JudgedMeshDepth(const TriangleMesh& a, const TriangleMesh& b,
@@ -179,6 +181,81 @@ std::vector<std::string> JudgedMeshDepth(const TriangleMesh& a, const TriangleMe
                                options);
 }
 
+PremiseRow MeasurePremise(const PaperScene& scene, int moments, int frames) {
+  constexpr double kDegrees = 57.29577951308232, kPremise = 10.0;
+  const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
+  const auto above = [](const Times& angles) {
+    const auto count = std::count_if(angles.ms.begin(), angles.ms.end(),
+                                     [](double angle) { return angle > kPremise; });
+    return static_cast<double>(count) /
+           std::max<double>(1.0, static_cast<double>(angles.ms.size()));
+  };
+  Times all, at_solutions;
+  LocalMinkowskiSum whole(a, b, {LocalBuilder::kFull});
+  for (int i = 0; i < moments; ++i) {
+    const LocalSum& sum =
+        whole.Update(scene.PoseAt((i + 0.5) / moments), {Vector3d::Zero(), 8.0 * kPaperSumRadius});
+    const PhongSurface surface = {sum.vertices, sum.triangles, sum.neighbors, sum.vertex_normals};
+    for (int t = 0; t < static_cast<int>(sum.triangles.size()); ++t) {
+      all.ms.push_back(kDegrees * CornerAngle(surface, t));
+    }
+  }
+  for (int i = 0; i < frames; ++i) {
+    ContinuousPenetrationDepth solver(a, b, {.keep_patch = false});
+    const ContinuousDepthResult result = solver.Update(scene.PoseAt((i + 0.5) / frames));
+    if (result.status != ContinuousDepthStatus::kFound) continue;
+    at_solutions.ms.push_back(kDegrees * result.corner_angle);
+  }
+  return {scene.name,
+          moments,
+          static_cast<long>(all.ms.size()),
+          all.At(0.5),
+          above(all),
+          static_cast<int>(at_solutions.ms.size()),
+          at_solutions.At(0.5),
+          above(at_solutions)};
+}
+
+CpdProfile ProfileCpd(const PaperScene& scene, HeapMeter heap) {
+  CpdProfile profile;
+  profile.scene = scene.name;
+  const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
+  const double step = scene.AtTurn(0.1) - scene.AtTurn(0.0);
+  const long before = heap != nullptr ? heap().bytes : 0;
+  ContinuousPenetrationDepth solver(a, b);
+  for (int i = 0; i < 60; ++i) solver.Update(scene.PoseAt(0.3 + i * step));
+  if (heap != nullptr) profile.solver_mb = static_cast<double>(heap().bytes - before) * 1e-6;
+
+  const MeshPair pair(a, b, scene.PoseAt(0.3));
+  const ContactBody body_a(a), body_b(b);
+  const Vector3d q = MeshPenetrationDepth(pair, body_a, body_b).translation;
+  MembershipCache cache;
+  // Points along and round the way out: from well inside to well outside, and off the touch.
+  const auto median_us = [&](const auto& point_at, int repeats) {
+    Times times;
+    for (int i = 0; i < 200; ++i) {
+      const Vector3d x = point_at(i);
+      const auto begin = Clock::now();
+      for (int k = 0; k < repeats; ++k) {
+        if (repeats == 1) cache.witness = {-1, -1};
+        Membership(pair, x, {Certainty::kFloat}, &cache);
+      }
+      times.ms.push_back(1e3 * Since(begin) / repeats);
+    }
+    return times.At(0.5);
+  };
+  const auto wobble = [&](int i) {
+    return Vector3d(1e-2 * q.norm() * Vector3d(std::sin(i), std::cos(2.0 * i), std::sin(3.0 * i)));
+  };
+  profile.overlapping_us = median_us([&](int i) { return Vector3d(0.3 * q + wobble(i)); }, 1);
+  profile.separate_us = median_us(
+      [&](int i) { return Vector3d(q + 0.1 * kPaperSumRadius * q.normalized() + wobble(i)); }, 1);
+  profile.near_touch_us =
+      median_us([&](int i) { return Vector3d(q * (1.0 + (i % 2 == 0 ? 1e-7 : -1e-7))); }, 1);
+  profile.witness_ns = 1e3 * median_us([&](int i) { return Vector3d(0.3 * q + wobble(i)); }, 1000);
+  return profile;
+}
+
 std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOptions& options) {
   const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
   const ContactBody body_a(a), body_b(b);
@@ -189,7 +266,7 @@ std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOp
 
   ContinuousPenetrationDepth cpd(a, b);
   Times mink, phong, total;
-  int without = 0, events = 0, cpd_findings = 0, bisected = 0;
+  int without = 0, events = 0, combinatorial = 0, cpd_findings = 0, bisected = 0;
   const auto start = Clock::now();
   const auto has_time = [&] { return Since(start) < 1e3 * options.seconds; };
   std::vector<std::pair<double, ContinuousDepthState>> suspects;  // where a step begins
@@ -217,7 +294,10 @@ std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOp
       continue;
     }
     ++bisected;
-    events += HasCpdEvent(scene, &cpd, suspects[i].second, suspects[i].first, ends[i]);
+    const CpdEvent event =
+        FindCpdEvent(scene, &cpd, suspects[i].second, suspects[i].first, ends[i]);
+    events += event.jumps;
+    combinatorial += event.jumps && event.by_combinatorics;
   }
 
   MeshDepthCache cache;
@@ -282,6 +362,7 @@ std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOp
                                    contact_coherent.Row(scene.name, "contact-space-coherent")};
   rows[2].events = events;
   rows[2].jumps = jumps + without;
+  rows[2].combinatorial = combinatorial;
   rows[2].findings = cpd_findings + (events > jumps + without ? 1 : 0);
   rows[3].findings = depth_findings;
   rows[4].jumps = jumps;

@@ -14,6 +14,7 @@
 #include "touchstone/core/cpd/contact_space_projection.h"
 #include "touchstone/core/cpd/continuous_penetration_depth.h"
 #include "touchstone/core/cpd/mesh_penetration_depth.h"
+#include "touchstone/tools/bench/heap_use.h"
 #include "touchstone/tools/shapes/paper_scenes.h"
 
 namespace touchstone {
@@ -41,14 +42,19 @@ inline constexpr int kBisections = 30;
 bool IsSmallStep(const Eigen::Vector3d& p, const Eigen::Vector3d& q);
 bool HasJump(const std::function<Eigen::Vector3d(double)>& at, double from, double to);
 
-// Whether CPD jumps between two moments, followed from the state at the first.
-bool HasCpdEvent(const PaperScene& scene, ContinuousPenetrationDepth* solver,
-                 const ContinuousDepthState& state, double from, double to);
+// Whether CPD jumps between two moments, followed from the state at the first, and whether the
+// triangles round the solution changed there.
+struct CpdEvent {
+  bool jumps = false, by_combinatorics = false;
+};
+CpdEvent FindCpdEvent(const PaperScene& scene, ContinuousPenetrationDepth* solver,
+                      const ContinuousDepthState& state, double from, double to);
 
 struct CpdBenchRow {
   std::string scene, method;
   double median_ms = 0.0, p99_ms = 0.0;
   int frames = 0, events = 0, jumps = 0, findings = 0;
+  int combinatorial = 0;  // of the events; they excuse nothing
 };
 
 struct CpdBenchOptions {
@@ -60,6 +66,26 @@ struct CpdBenchOptions {
 // Rows of one scene: mink, phong, total (Table 1's columns), the depth cold and coherent, and the
 // contact-space projection cold and coherent.
 std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOptions& options);
+
+// Theorem 3's premise on a scene: the largest angle between the normals at the corners of a
+// triangle, of all triangles of ∂M at some moments of the motion, and of those with the solutions.
+struct PremiseRow {
+  std::string scene;
+  int moments = 0;
+  long triangles = 0;
+  double median_deg = 0.0, share_above_10 = 0.0;
+  int solutions = 0;
+  double solutions_median_deg = 0.0, solutions_above_10 = 0.0;
+};
+PremiseRow MeasurePremise(const PaperScene& scene, int moments, int frames);
+
+// What a solver of a scene holds, and what membership costs there: medians.
+struct CpdProfile {
+  std::string scene;
+  double solver_mb = 0.0;  // as the heap has it, after some frames; 0 without a meter
+  double overlapping_us = 0.0, separate_us = 0.0, near_touch_us = 0.0, witness_ns = 0.0;
+};
+CpdProfile ProfileCpd(const PaperScene& scene, HeapMeter heap);
 
 // What the exact half finds wrong with a depth; empty when it stands.
 std::vector<std::string> JudgedMeshDepth(const TriangleMesh& a, const TriangleMesh& b,

@@ -149,6 +149,7 @@ int PrismList::Find(const Vector3d& x, double least) const {
 }
 
 void BallList::Add(const BurialBall& ball) {
+  largest_ = std::max(largest_, ball.radius);
   if (balls_.size() < kCapacity) {
     balls_.push_back(ball);
     return;
@@ -158,6 +159,7 @@ void BallList::Add(const BurialBall& ball) {
 }
 
 bool BallList::Holds(const Vector3d& centre, double radius) const {
+  if (radius >= largest_) return false;
   for (const BurialBall& ball : balls_) {
     const double rest = ball.radius - radius;
     if (rest > 0.0 && (centre - ball.centre).squaredNorm() < rest * rest) return true;

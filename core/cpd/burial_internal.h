@@ -75,7 +75,10 @@ class PrismList {
 // Balls met so far, the latest kCapacity of them.
 class BallList {
  public:
-  void Clear() { balls_.clear(); }
+  void Clear() {
+    balls_.clear();
+    largest_ = 0.0;
+  }
   void Add(const BurialBall& ball);
   // Whether one ball holds all points within `radius` of `centre`.
   bool Holds(const Eigen::Vector3d& centre, double radius) const;
@@ -89,6 +92,7 @@ class BallList {
   static constexpr std::size_t kCapacity = 48;
   std::vector<BurialBall> balls_;
   std::size_t next_ = 0;
+  double largest_ = 0.0;  // radius of those added
 };
 
 }  // namespace touchstone::internal

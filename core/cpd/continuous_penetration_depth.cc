@@ -11,6 +11,7 @@
 
 #include "touchstone/core/cpd/contact_body.h"
 #include "touchstone/core/cpd/contact_name_internal.h"
+#include "touchstone/core/cpd/kept_patch_internal.h"
 #include "touchstone/core/cpd/mesh_penetration_depth.h"
 #include "touchstone/core/mesh/membership.h"
 
@@ -32,6 +33,8 @@ constexpr double kBranchReach = 16.0;
 constexpr double kBallPart = 0.125;
 // The least ball, over the size of the pair: at a shallow touch α|q| would vanish.
 constexpr double kLeastBall = 1e-4;
+// Off the surface, over the size: far above the roundings of membership, as for the depth.
+constexpr double kStep = 0x1p-40;
 
 double SquaredDistanceTo(const Vector3d& p, const Vector3d& a, const Vector3d& b,
                          const Vector3d& c) {
@@ -85,7 +88,7 @@ class ContinuousPenetrationDepth::Implementation {
     result_ = {};
     pose_ = pose;
     result_.branch = branch_;
-    if (Begin()) Search();
+    if (Begin() && !FollowPatch()) Search();
     result_.total_ms = Since(begin);
     return result_;
   }
@@ -120,6 +123,50 @@ class ContinuousPenetrationDepth::Implementation {
     }
     result_.depth_ms = Since(begin);
     return true;
+  }
+
+  // Looks for the branch on the triangles that it was on before, if they are still what they were.
+  bool FollowPatch() {
+    if (!last_ || !last_->was_found || last_->patch == nullptr || !options_.track_branch) {
+      return false;
+    }
+    const auto begin = Clock::now();
+    const std::shared_ptr<const internal::PatchShape> shape = last_->patch;
+    const bool holds = patch_.Follow(pair_, a_, b_, *shape);
+    result_.minkowski_ms += Since(begin);
+    if (!holds) return false;
+    const auto begin_phong = Clock::now();
+    surface_ = patch_.Surface(pair_, *shape, options_.weights);
+    PhongOptions phong;
+    phong.interpolation = options_.interpolation;
+    phong.begin_at = last_->at;
+    points_.clear();
+    ProjectOntoTriangle(surface_, 0, phong, &points_);
+    const PhongPoint* chosen = nullptr;
+    double best = BranchReach();
+    for (const PhongPoint& point : points_) {
+      const double distance = (point.position - last_->translation).norm();
+      if (distance < best) best = distance, chosen = &point;
+    }
+    result_.phong_ms += Since(begin_phong);
+    if (chosen == nullptr || !IsOutside(*chosen, patch_.NormalOf(shape->facet_of_triangle[0]))) {
+      return false;
+    }
+    result_.local_triangles = static_cast<int>(shape->triangles.size());
+    result_.solutions = static_cast<int>(points_.size());
+    result_.ball = BallOf(surface_, 0);
+    Take(*chosen, shape->facets[shape->facet_of_triangle[0]], true, shape);
+    return true;
+  }
+
+  // Whether there is no overlap a step off the surface: it is not buried.
+  bool IsOutside(const PhongPoint& point, const Vector3d& normal) {
+    const auto begin = Clock::now();
+    const Vector3d x = point.position + (kStep / pair_.scale()) * normal;
+    const Verdict verdict =
+        Membership(pair_, x, {Certainty::kFloat}, &surface_membership_cache_).verdict;
+    result_.minkowski_ms += Since(begin);
+    return verdict == Verdict::kSeparate;
   }
 
   void Search() {
@@ -196,13 +243,23 @@ class ContinuousPenetrationDepth::Implementation {
     }
     if (HasBorder(chosen.triangle)) {
       // Its normals may lack triangles beyond the ball: a ball that holds it has them all.
-      const Ball whole = BallOf(chosen.triangle);
+      const Ball whole = BallOf(surface_, chosen.triangle);
       radius_ = std::max(radius_ + (whole.center - at_).norm(), 1.05 * whole.radius);
       at_ = whole.center;
       if (result_.iterations < options_.iteration_limit) return false;
     }
-    Take(chosen, continues);
+    Take(chosen, sum_->facets[sum_->facet_of_triangle[chosen.triangle]], continues,
+         PatchAround(chosen.triangle));
     return true;
+  }
+
+  std::shared_ptr<const internal::PatchShape> PatchAround(int triangle) {
+    if (!options_.keep_patch || !options_.track_branch || HasBorder(triangle)) return nullptr;
+    const auto begin = Clock::now();
+    auto shape = patch_.Make(pair_, a_, b_, *sum_, triangle);
+    result_.minkowski_ms += Since(begin);
+    result_.phong_ms -= Since(begin);  // which counts all of Project
+    return shape;
   }
 
   // The solution nearest to p, within `reach`, of all local triangles, nearest ones first.
@@ -267,9 +324,9 @@ class ContinuousPenetrationDepth::Implementation {
   }
 
   // A ball round a triangle: on its longest side as diameter, or round the middle.
-  Ball BallOf(int triangle) const {
-    const auto& [a, b, c] = sum_->triangles[triangle];
-    const Vector3d corners[] = {sum_->vertices[a], sum_->vertices[b], sum_->vertices[c]};
+  static Ball BallOf(const PhongSurface& surface, int triangle) {
+    const auto& [a, b, c] = surface.triangles[triangle];
+    const Vector3d corners[] = {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
     const auto round = [&](const Vector3d& center) {
       double radius = 0.0;
       for (const Vector3d& corner : corners) radius = std::max(radius, (corner - center).norm());
@@ -283,15 +340,20 @@ class ContinuousPenetrationDepth::Implementation {
     return best;
   }
 
-  void Take(const PhongPoint& point, bool continues) {
+  void Take(const PhongPoint& point, const SumFacet& facet, bool continues,
+            std::shared_ptr<const internal::PatchShape> patch) {
     result_.status = ContinuousDepthStatus::kFound;
     result_.residual = point.residual;
     if (point.rate) {
       // B moved by δ moves M by -δ: the origin moves by δ in M, and q by that less.
       result_.rate_of_translation = *point.rate - Matrix3d::Identity();
     }
-    SetTranslation(point.position, sum_->facets[sum_->facet_of_triangle[point.triangle]]);
-    SetBranch(continues, true, point.rate ? point.rate->norm() : 1.0, BallOf(point.triangle));
+    const Ball triangle = BallOf(surface_, point.triangle);
+    result_.corner_angle = CornerAngle(surface_, point.triangle);
+    SetTranslation(point.position, facet);
+    SetBranch(continues, true, point.rate ? point.rate->norm() : 1.0, triangle);
+    last_->at = point.at;
+    last_->patch = std::move(patch);
   }
 
   void Approximate(ContinuousDepthStatus status) {
@@ -324,8 +386,16 @@ class ContinuousPenetrationDepth::Implementation {
     result_.branch = branch_;
     const Vector3d contact =
         pose_.rotation().transpose() * (result_.point_on_b - pose_.translation());
-    last_ = ContinuousDepthState{pose_,   result_.translation, rate,      triangle,
-                                 contact, result_.features,    was_found, branch_};
+    last_ = ContinuousDepthState{pose_,
+                                 result_.translation,
+                                 rate,
+                                 triangle,
+                                 contact,
+                                 result_.features,
+                                 was_found,
+                                 branch_,
+                                 Vector3d::Constant(1.0 / 3.0),
+                                 nullptr};
   }
 
   const ContinuousDepthOptions options_;
@@ -333,7 +403,8 @@ class ContinuousPenetrationDepth::Implementation {
   MeshPair pair_;
   LocalMinkowskiSum local_;
   MeshDepthCache depth_cache_;
-  MembershipCache membership_cache_;
+  MembershipCache membership_cache_, surface_membership_cache_;
+  internal::KeptPatch patch_;
   RelativePose pose_;
   ContinuousDepthResult result_;
   std::optional<ContinuousDepthState> last_;

@@ -23,6 +23,10 @@
 
 namespace touchstone {
 
+namespace internal {
+struct PatchShape;
+}
+
 struct ContinuousDepthOptions {
   double ball_ratio = 0.3;
   double ball_growth = 2.0;
@@ -32,7 +36,11 @@ struct ContinuousDepthOptions {
   // Follows the solution of the answer before while it lasts; otherwise every answer is the nearest
   // of the local solutions, as definition (8) has it, and may jump between branches.
   bool track_branch = true;
-  LocalBuilder builder = LocalBuilder::kSphereHierarchy;
+  // Follows a branch on the triangles that it was found on while nothing comes in their way,
+  // without a local sum. They stay the triangles they are: where a flat cell would be cut into
+  // others, so that the normals in it would jump, it is not.
+  bool keep_patch = true;
+  LocalBuilder builder = LocalBuilder::kGapFilling;
 };
 
 enum class ContinuousDepthStatus : std::uint8_t {
@@ -63,10 +71,13 @@ struct ContinuousDepthResult {
   int branch = 0;
   bool branch_ended = false;           // the branch of the answer before was not found again
   bool combinatorics_changed = false;  // the solution lies on another facet than before
-  int solutions = 0;                   // found in the last local sum
+  int solutions = 0;                   // found in the last local sum, or on the triangles kept
+  // The largest angle between the normals at the corners of the solution's triangle, in radians:
+  // Theorem 3 supposes no more than about ten degrees.
+  double corner_angle = 0.0;
 
-  int iterations = 0;
-  Ball ball;  // of the last local sum
+  int iterations = 0;  // local sums made: none where the triangles of the answer before held
+  Ball ball;           // of the last local sum, or round the triangle that held
   int local_triangles = 0;
   double depth_ms = 0.0, minkowski_ms = 0.0, phong_ms = 0.0, total_ms = 0.0;
 };
@@ -82,6 +93,9 @@ struct ContinuousDepthState {
   SumFacet features;
   bool was_found;  // or an approximation
   int branch;
+  // Where in its triangle the solution is, and that one with those round it; null if not kept.
+  Eigen::Vector3d at;
+  std::shared_ptr<const internal::PatchShape> patch;
 };
 
 // Continuous penetration depth of two closed meshes along a motion, a pose at a time: Algorithm 2
@@ -89,7 +103,8 @@ struct ContinuousDepthState {
 // throws, never returns NaN.
 //
 // Complexity of an answer: an initial global depth when nothing came before, and as many local sums
-// as iterations.
+// as iterations; O(n) to place B and O(k) for k pairs of features near the triangle where the
+// triangles of the answer before hold.
 // Source: Lee, Behar, Lien, Kim 2016, sections 3.3 and 6.
 class ContinuousPenetrationDepth {
  public:
@@ -106,7 +121,7 @@ class ContinuousPenetrationDepth {
   // Forgets the motion: the next answer begins with the global depth.
   void Forget();
 
-  // What the last answer was found on.
+  // The last one made.
   const LocalSum& local_sum() const;
 
  private:

@@ -63,6 +63,7 @@ struct DepthScratch {
   std::vector<int> prism_uses;
   PrismList prisms;
   BallList balls;
+  std::vector<std::pair<int, int>> met_balls;  // the faces that they touch
   MembershipCache membership;
 };
 

@@ -68,6 +68,13 @@ void MakeFacet(const MeshPair& pair, const SumFacet& name, FacetFrame* frame, Fa
   Measure(*frame, piece);
 }
 
+double DistanceToFacet(const MeshPair& pair, const SumFacet& name) {
+  FacetFrame frame;
+  FacetPiece piece;
+  MakeFacet(pair, name, &frame, &piece);
+  return std::max(0.0, piece.distance - frame.slack);
+}
+
 NearestPoint NearestOf(const FacetPiece& piece) {
   NearestPoint nearest{Vector2d::Zero(), 0, {kNoWall, kNoWall}};
   bool is_inside = true;

@@ -48,6 +48,9 @@ struct FacetPiece {
 // The frame of a facet, and the whole of it as a piece.
 void MakeFacet(const MeshPair& pair, const SumFacet& name, FacetFrame* frame, FacetPiece* piece);
 
+// No more than the distance of a facet from the origin, whichever way it faces.
+double DistanceToFacet(const MeshPair& pair, const SumFacet& name);
+
 // The nearest point to the origin, and the walls it lies on.
 struct NearestPoint {
   Eigen::Vector2d at;

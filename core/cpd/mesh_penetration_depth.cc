@@ -227,8 +227,8 @@ void MeshDepthCache::Clear() {
 MeshDepthResult MeshPenetrationDepth(const MeshPair& pair, const ContactBody& a,
                                      const ContactBody& b, const MeshDepthOptions& options,
                                      MeshDepthCache* cache) {
-  MeshDepthCache own;
-  internal::DepthScratch& scratch = (cache != nullptr ? *cache : own).scratch();
+  std::optional<MeshDepthCache> own;
+  internal::DepthScratch& scratch = (cache != nullptr ? *cache : own.emplace()).scratch();
   MeshDepthResult result;
   DepthAnswer answer = internal::SearchDepth(pair, a, b, options, &scratch, &result);
   result.status = answer.status;

@@ -73,6 +73,7 @@ class Projection {
   int Find(std::vector<PhongPoint>* points) {
     if (!is_outward_) return 0;
     const std::size_t begin = points->size();
+    if (options_.begin_at) Begin(*options_.begin_at, begin, points);
     Begin({1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, begin, points);
     if (options_.find_all) {
       // Barycentres of the triangles with corners at multiples of 1/4, upright and inverted.
@@ -260,6 +261,16 @@ double MisfitAtBarycentre(const PhongSurface& surface, int triangle,
                            interpolation);
   std::array<Basis, 3> derivatives;
   return SineTo(basis.At(Vector3d::Constant(1.0 / 3.0), &derivatives), middle);
+}
+
+double CornerAngle(const PhongSurface& surface, int triangle) {
+  const auto& corners = surface.triangles[triangle];
+  double largest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d &p = surface.normals[corners[k]], &q = surface.normals[corners[(k + 1) % 3]];
+    largest = std::max(largest, std::atan2(p.cross(q).norm(), p.dot(q)));
+  }
+  return largest;
 }
 
 std::vector<PhongPoint> ProjectByBreadthFirst(const PhongSurface& surface, int from,

@@ -49,6 +49,8 @@ struct PhongOptions {
   // Newton begins at the barycentre only, as in the paper; or also at those of the 16 triangles
   // that two rounds of midpoints make, which finds solutions beside the first.
   bool find_all = false;
+  // Where Newton begins first, if anywhere but there.
+  std::optional<Eigen::Vector3d> begin_at = std::nullopt;
   int newton_limit = 20;
 };
 
@@ -96,6 +98,9 @@ int ProjectOntoTriangle(const PhongSurface& surface, int triangle, const PhongOp
 // nearly a triangle without a solution has one. The argmin of Algorithm 2, made a number.
 double MisfitAtBarycentre(const PhongSurface& surface, int triangle,
                           PhongInterpolation interpolation);
+
+// The largest angle between the normals at two corners of a triangle, in radians.
+double CornerAngle(const PhongSurface& surface, int triangle);
 
 // Breadth-first from a triangle across sides until one has a projection: that one's. Or nothing.
 std::vector<PhongPoint> ProjectByBreadthFirst(const PhongSurface& surface, int from,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 
 #include "touchstone/core/base/vector_clones.h"
 #include "touchstone/core/minkowski/normal_cone_internal.h"
@@ -161,51 +162,70 @@ void PlacedFeatureTree::PlaceNode(int i) {
 // the origin is below all planes unless p < 0 and p^2 > |c x axis|^2 sin^2 α.
 //
 // Lanes of X run in vectors, those of Y one after the other. X may be either body's: seen from B, c
-// and the cones turn to their negatives.
-TOUCHSTONE_INLINE void MeetingLanesOf(const FeatureNode& x, const FeatureNode& y, double limit,
-                                      double least_rise, std::uint8_t masks[kWidth]) {
-  for (int j = 0; j < y.lane_count; ++j) {
-    std::int64_t meets[kWidth];
-    for (int i = 0; i < kWidth; ++i) {
-      const double c0 = x.centre[0][i] - y.centre[0][j], c1 = x.centre[1][i] - y.centre[1][j],
-                   c2 = x.centre[2][i] - y.centre[2][j];
-      const double squared = c0 * c0 + c1 * c1 + c2 * c2;
-      const double radius = x.radius[i] + y.radius[j];
-      const double reach = limit + radius;
-      const double cosine = -(x.axis[0][i] * y.axis[0][j] + x.axis[1][i] * y.axis[1][j] +
-                              x.axis[2][i] * y.axis[2][j]);
-      const double least = x.cosine[i] * y.cosine[j] - x.sine[i] * y.sine[j];
-      const double of_x = c0 * x.axis[0][i] + c1 * x.axis[1][i] + c2 * x.axis[2][i];
-      const double of_y = -(c0 * y.axis[0][j] + c1 * y.axis[1][j] + c2 * y.axis[2][j]);
-      const double rise_x = of_x * x.cosine[i] + radius - least_rise;
-      const double rise_y = of_y * y.cosine[j] + radius - least_rise;
-      const double across_x = (squared - of_x * of_x) * (x.sine[i] * x.sine[i]);
-      const double across_y = (squared - of_y * of_y) * (y.sine[j] * y.sine[j]);
-      const bool x_is_wide = x.cosine[i] < -1.0, y_is_wide = y.cosine[j] < -1.0;
-      const bool meet = (squared <= reach * reach) & (x_is_wide | y_is_wide | (cosine >= least)) &
-                        (x_is_wide | (rise_x >= 0.0) | (across_x >= rise_x * rise_x)) &
-                        (y_is_wide | (rise_y >= 0.0) | (across_y >= rise_y * rise_y));
-      meets[i] = meet ? std::int64_t{1} << i : 0;
-    }
-    std::int64_t mask = 0;
-    for (int i = 0; i < kWidth; ++i) mask |= meets[i];
-    masks[j] = static_cast<std::uint8_t>(mask & ((1 << x.lane_count) - 1));
+// and the cones turn to their negatives. In the compiler's own vectors, for left to itself it runs
+// the lanes one by one at -O2; and what fails is told by sign bits, for it does so with comparisons
+// of such vectors in clones.
+using Reals = double __attribute__((vector_size(8 * kWidth)));
+using Flags = std::int64_t __attribute__((vector_size(8 * kWidth)));
+
+TOUCHSTONE_INLINE void Load(const double* from, Reals* to) { std::memcpy(to, from, sizeof *to); }
+
+// Byte j of the result is the mask of lanes of X that meet lane j of Y.
+TOUCHSTONE_INLINE std::uint64_t MeetingLanesOf(const FeatureNode& x, const FeatureNode& y,
+                                               double limit, double least_rise) {
+  Reals centre[3], axis[3], radius, cosine, sine;
+  for (int k = 0; k < 3; ++k) {
+    Load(x.centre[k], &centre[k]);
+    Load(x.axis[k], &axis[k]);
   }
+  Load(x.radius, &radius);
+  Load(x.cosine, &cosine);
+  Load(x.sine, &sine);
+  const Reals squared_sine = sine * sine;
+  const Flags x_is_narrow = ~(Flags)(cosine + 1.0);
+  const Flags lanes = {1, 2, 4, 8, 16, 32, 64, 128};
+  Flags all = {};
+  for (int j = 0; j < y.lane_count; ++j) {
+    const Reals c0 = centre[0] - y.centre[0][j], c1 = centre[1] - y.centre[1][j],
+                c2 = centre[2] - y.centre[2][j];
+    const Reals squared = c0 * c0 + c1 * c1 + c2 * c2;
+    const Reals sum = radius + y.radius[j];
+    const Reals reach = limit + sum;
+    const Reals between =
+        -(axis[0] * y.axis[0][j] + axis[1] * y.axis[1][j] + axis[2] * y.axis[2][j]);
+    const Reals least = cosine * y.cosine[j] - sine * y.sine[j];
+    const Reals of_x = c0 * axis[0] + c1 * axis[1] + c2 * axis[2];
+    const Reals of_y = -(c0 * y.axis[0][j] + c1 * y.axis[1][j] + c2 * y.axis[2][j]);
+    const Reals rise_x = of_x * cosine + sum - least_rise;
+    const Reals rise_y = of_y * y.cosine[j] + sum - least_rise;
+    const Reals across_x = (squared - of_x * of_x) * squared_sine;
+    const Reals across_y = (squared - of_y * of_y) * (y.sine[j] * y.sine[j]);
+    const Flags y_is_narrow = Flags{} - (y.cosine[j] < -1.0 ? 0 : 1);
+    const Flags is_far = (Flags)(reach * reach - squared);
+    const Flags is_parted = (Flags)(between - least) & x_is_narrow & y_is_narrow;
+    const Flags is_below_x = (Flags)rise_x & (Flags)(across_x - rise_x * rise_x) & x_is_narrow;
+    const Flags is_below_y = (Flags)rise_y & (Flags)(across_y - rise_y * rise_y) & y_is_narrow;
+    const Flags fails = is_far | is_parted | is_below_x | is_below_y;
+    all |= ~(fails >> 63) & (lanes << (8 * j));
+  }
+  std::uint64_t masks = 0;
+  for (int i = 0; i < kWidth; ++i) masks |= static_cast<std::uint64_t>(all[i]);
+  const std::uint64_t used = (std::uint64_t{1} << x.lane_count) - 1;
+  return masks & (used * 0x0101010101010101u);
 }
 
 TOUCHSTONE_VECTOR_CLONES
 void MeetingFeatures(const FeatureNode& a, const FeatureNode& b, double limit, bool faces_away,
                      std::uint8_t masks[kWidth]) {
   const double least_rise = faces_away ? -0x1p-46 : -1e100;
-  for (int j = 0; j < kWidth; ++j) masks[j] = 0;
   if (a.lane_count > 1 || b.lane_count == 1) {
-    MeetingLanesOf(a, b, limit, least_rise, masks);
+    const std::uint64_t all = MeetingLanesOf(a, b, limit, least_rise);
+    for (int j = 0; j < kWidth; ++j) masks[j] = static_cast<std::uint8_t>(all >> (8 * j));
     return;
   }
   // B's lanes in vectors.
-  std::uint8_t turned[kWidth] = {};
-  MeetingLanesOf(b, a, limit, least_rise, turned);
-  for (int j = 0; j < b.lane_count; ++j) masks[j] = (turned[0] >> j) & 1;
+  const std::uint64_t turned = MeetingLanesOf(b, a, limit, least_rise);
+  for (int j = 0; j < kWidth; ++j) masks[j] = (turned >> j) & 1;
 }
 
 FeatureNode LaneAlone(const FeatureNode& node, int lane) {

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "touchstone/exact/judge/nearest_on_triangle.h"
 #include "touchstone/exact/judge_cpd.h"
 #include "touchstone/exact/mesh_membership.h"
 #include "touchstone/exact/mesh_pair.h"
@@ -36,24 +37,6 @@ class Numbers {
  private:
   std::uint64_t state_;
 };
-
-Vector3d NearestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d normal = (b - a).cross(c - a);
-  if (normal.dot((b - a).cross(-a)) > 0.0 && normal.dot((c - b).cross(-b)) > 0.0 &&
-      normal.dot((a - c).cross(-c)) > 0.0) {
-    return normal * (normal.dot(a) / normal.squaredNorm());
-  }
-  Vector3d best = a;
-  const Vector3d* ends[] = {&a, &b, &c, &a};
-  for (int k = 0; k < 3; ++k) {
-    const Vector3d side = *ends[k + 1] - *ends[k];
-    const double squared = side.squaredNorm();
-    const double t = squared > 0.0 ? std::clamp(-ends[k]->dot(side) / squared, 0.0, 1.0) : 0.0;
-    const Vector3d x = *ends[k] + t * side;
-    if (x.squaredNorm() < best.squaredNorm()) best = x;
-  }
-  return best;
-}
 
 // Each edge once: of the two faces that it joins, the one that runs it upward tells.
 std::vector<std::array<int, 2>> EdgesOf(const TriangleMesh& mesh) {

@@ -42,6 +42,15 @@ struct Bodies {
   }
 };
 
+Shape ShapeOf(const testing::Mesh& mesh) {
+  Shape out;
+  out.vertices = mesh.vertices;
+  for (const auto& face : testing::Triangulated(mesh).faces) {
+    out.faces.push_back({face[0], face[1], face[2]});
+  }
+  return out;
+}
+
 double DistanceToSegment(const Vector3d& a, const Vector3d& b) {
   const Vector3d ab = b - a;
   const double t = std::clamp(-a.dot(ab) / ab.squaredNorm(), 0.0, 1.0);
@@ -226,20 +235,121 @@ TEST(MeshPenetrationDepth, ConvexPairsAsByTheConvexQuery) {
   for (int i = 0; i < 10; ++i) {
     const testing::Mesh p = testing::RoundBody(20, {1, 1, 1}, 10 + i);
     const testing::Mesh q = testing::RoundBody(30, {2, 1, 1}, 40 + i);
-    const auto shape = [](const testing::Mesh& mesh) {
-      Shape out;
-      out.vertices = mesh.vertices;
-      for (const auto& face : testing::Triangulated(mesh).faces) {
-        out.faces.push_back({face[0], face[1], face[2]});
-      }
-      return out;
-    };
-    const Bodies bodies(shape(p), shape(q));
+    const Bodies bodies(ShapeOf(p), ShapeOf(q));
     const RelativePose pose = PoseOf(random.Rotation(), 0.8 * random.Direction());
     const MeshDepthResult result = bodies.Depth(pose);
     const auto convex = PenetrationDepth(testing::MustBuild(p), testing::MustBuild(q), pose);
     ASSERT_EQ(result.status, MeshDepthStatus::kCertain);
     EXPECT_NEAR(result.upper_bound, convex.depth.value, 1e-9);
+  }
+}
+
+// A round body in a wide slab of height 2: out by the nearer side, whichever way it is turned.
+TEST(MeshPenetrationDepth, RoundBodyInASlab) {
+  const testing::Mesh round = testing::RoundBody(60, {0.8, 0.8, 0.8}, 3);
+  const Bodies bodies(Box({-20, -20, -1}, {20, 20, 1}), ShapeOf(round));
+  testing::Random random(61);
+  for (int i = 0; i < 8; ++i) {
+    const Matrix3d r = random.Rotation();
+    const Vector3d t(random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(-1.5, 1.5));
+    double low = 1e300, high = -1e300;
+    for (const Vector3d& v : round.vertices) {
+      low = std::min(low, (r * v + t).z());
+      high = std::max(high, (r * v + t).z());
+    }
+    const MeshDepthResult result = bodies.Depth(PoseOf(r, t));
+    EXPECT_EQ(result.status, MeshDepthStatus::kCertain);
+    EXPECT_NEAR(result.upper_bound, std::min(1.0 - low, 1.0 + high), 1e-9);
+  }
+}
+
+// Two linked rings whose tubes meet: they part along the line between the tubes, or nearly so.
+TEST(MeshPenetrationDepth, LinkedRings) {
+  const Bodies bodies(Torus(12, 8, 2.0, 0.5), Torus(12, 8, 2.0, 0.5));
+  const Matrix3d upright =
+      Eigen::AngleAxisd(1.5707963267948966, Vector3d::UnitX()).toRotationMatrix();
+  for (const double overlap : {0.02, 0.1, 0.3}) {
+    // The second ring passes x = 1 + overlap, where the first one's tube begins at 1.5.
+    const RelativePose pose = PoseOf(upright, {3.0 + overlap, 1e-3, 2e-3});
+    const MeshDepthResult result = bodies.Depth(pose);
+    const double expected = DepthByBoundary(bodies.At(pose));
+    ExpectSound(bodies.At(pose), result);
+    EXPECT_EQ(result.status, MeshDepthStatus::kCertain);
+    EXPECT_NEAR(result.upper_bound, expected, 1e-8);
+    EXPECT_LE(result.upper_bound, Vector3d(overlap, 1e-3, 2e-3).norm() + 1e-9);
+    EXPECT_GT(result.upper_bound, 0.5 * overlap);
+  }
+  EXPECT_EQ(bodies.Depth(PoseOf(upright, {2.0, 0, 0})).status, MeshDepthStatus::kSeparate);
+}
+
+// A box in the cavity of a hollow one is free; in its wall it is not.
+TEST(MeshPenetrationDepth, InACavityAndAroundIt) {
+  const Bodies bodies(HollowBox(), Box({-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25}));
+  const Vector3d cavity(2, 1.78125, 1.5625);
+  EXPECT_EQ(bodies.Depth(PoseOf(Matrix3d::Identity(), cavity)).status, MeshDepthStatus::kSeparate);
+  double deepest = 0.0;
+  for (double x = 0.0; x < 3.0; x += 0.125) {
+    const RelativePose pose = PoseOf(Matrix3d::Identity(), cavity + x * Vector3d::UnitX());
+    const MeshDepthResult result = bodies.Depth(pose);
+    ExpectSound(bodies.At(pose), result);
+    EXPECT_NEAR(result.upper_bound, DepthByBoundary(bodies.At(pose)), 1e-8);
+    deepest = std::max(deepest, result.upper_bound);
+  }
+  EXPECT_GT(deepest, 0.2);
+}
+
+// Six ways out of the same length, and eight: any of them, the same one every time, warm or cold.
+TEST(MeshPenetrationDepth, SymmetricTies) {
+  const Shape cube = Box({-1, -1, -1}, {1, 1, 1});
+  const Bodies cubes(cube, Box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
+  MeshDepthCache cache;
+  const MeshDepthResult first = cubes.Depth(PoseOf(Matrix3d::Identity()), {}, &cache);
+  EXPECT_EQ(first.status, MeshDepthStatus::kCertain);
+  EXPECT_NEAR(first.upper_bound, 1.5, 1e-11);
+  EXPECT_NEAR(first.translation.cwiseAbs().maxCoeff(), 1.5, 1e-11);
+  for (int i = 0; i < 3; ++i) {
+    const MeshDepthResult again = cubes.Depth(PoseOf(Matrix3d::Identity()), {}, &cache);
+    EXPECT_NEAR(again.upper_bound, 1.5, 1e-11);
+  }
+  const Bodies stars(Star(8), Star(8));
+  const RelativePose half =
+      PoseOf(Eigen::AngleAxisd(0.39269908169872414, Vector3d::UnitZ()).toRotationMatrix());
+  const MeshDepthResult star = stars.Depth(half);
+  ExpectSound(stars.At(half), star);
+  EXPECT_EQ(star.status, MeshDepthStatus::kCertain);
+  EXPECT_NEAR(star.upper_bound, DepthByBoundary(stars.At(half)), 1e-8);
+}
+
+// Both bodies moved rigidly: vertices are rounded anew, by 1e-16 of the size.
+TEST(MeshPenetrationDepth, UnchangedByARigidMotionOfBoth) {
+  const Shape torus = Torus(12, 8, 2.0, 0.75), star = Star(5);
+  testing::Random random(71);
+  for (int i = 0; i < 6; ++i) {
+    const Matrix3d r = random.Rotation(), turn = random.Rotation();
+    const Vector3d t = 1.7 * random.Direction(), shift = 3.0 * random.Direction();
+    Shape moved = torus;
+    for (Vector3d& v : moved.vertices) v = turn * v + shift;
+    const double depth = Bodies(torus, star).Depth(PoseOf(r, t)).upper_bound;
+    const double other = Bodies(moved, star).Depth(PoseOf(turn * r, turn * t + shift)).upper_bound;
+    EXPECT_NEAR(depth, other, 1e-8);
+  }
+}
+
+// A list of features in the way, made along a slow motion, must hold all that later frames meet.
+TEST(MeshPenetrationDepth, ListsOfSlowMotionsMissNothing) {
+  const Bodies bodies(Torus(12, 8, 2.0, 0.75), Fish(9, 6));
+  for (const double step : {0.0005, 0.002, 0.005}) {
+    MeshDepthCache cache;
+    int by_list = 0;
+    for (int i = 0; i < 40; ++i) {
+      const Matrix3d r =
+          Eigen::AngleAxisd(step * i, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+      const RelativePose pose = PoseOf(r, {1.6, 0.3 + 0.4 * step * i, 0.1});
+      const MeshDepthResult warm = bodies.Depth(pose, {}, &cache);
+      by_list += warm.node_pairs == 0;
+      EXPECT_NEAR(warm.upper_bound, bodies.Depth(pose).upper_bound, 1e-8) << step << ' ' << i;
+    }
+    EXPECT_GT(by_list, 25);
   }
 }
 

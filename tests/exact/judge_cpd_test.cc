@@ -77,5 +77,28 @@ TEST(JudgeMeshDepth, FindsPlantedFaults) {
   EXPECT_GT(judged, 2);
 }
 
+// Against whole boundaries by Nef polyhedra: answers stand, and faults of 1e-6 do not.
+TEST(JudgeMeshDepth, ByNef) {
+  const TriangleMesh a = MustBuild(UShape()), b = MustBuild(Key());
+  const ContactBody body_a(a), body_b(b);
+  testing::Random random(47);
+  int judged = 0;
+  for (int i = 0; i < 6 && judged < 2; ++i) {
+    const RelativePose pose = *RelativePose::Make(random.Rotation(), 1.2 * random.Direction());
+    const MeshDepthResult result = MeshPenetrationDepth(MeshPair(a, b, pose), body_a, body_b);
+    if (result.status == MeshDepthStatus::kSeparate) continue;
+    ++judged;
+    exact::MeshDepthClaim claim = ClaimOf(result);
+    for (const auto& finding : exact::JudgeMeshDepthByNef(a, b, pose, claim)) {
+      ADD_FAILURE() << finding;
+    }
+    claim.lower_bound = claim.upper_bound = result.upper_bound * (1.0 + 1e-6);
+    EXPECT_FALSE(exact::JudgeMeshDepthByNef(a, b, pose, claim).empty());
+    claim.lower_bound = claim.upper_bound = result.upper_bound * (1.0 - 1e-6);
+    EXPECT_FALSE(exact::JudgeMeshDepthByNef(a, b, pose, claim).empty());
+  }
+  EXPECT_GT(judged, 0);
+}
+
 }  // namespace
 }  // namespace touchstone

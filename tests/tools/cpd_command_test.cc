@@ -51,6 +51,31 @@ TEST(CpdCommand, BenchRows) {
   }
 }
 
+TEST(CpdCommand, PremiseOfTheorem3) {
+  const ProgramRun run = RunProgram("cpd --premise --scene cone-axes --json");
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  ASSERT_EQ(run.json().size(), 1u);
+  const auto& row = run.json()[0];
+  EXPECT_GT(row["triangles"].get<int>(), 1000);
+  EXPECT_GT(row["solutions"].get<int>(), 10);
+  EXPECT_GT(row["share_above_10"].get<double>(), 0.0);
+  EXPECT_LE(row["share_above_10"].get<double>(), 1.0);
+}
+
+TEST(CpdCommand, VerifyMeshDepths) {
+  const ProgramRun run = RunProgram("verify --mesh-depth --count 64 --seed 5 --json");
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  int placements = 0, wrong = 0;
+  for (const auto& row : run.json()["results"]) {
+    placements += row["placements"].get<int>();
+    wrong += row["wrong"].get<int>();
+    EXPECT_EQ(row["certain"], row["overlapping"]) << row;
+  }
+  EXPECT_EQ(placements, 64);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(RunProgram("verify --nef").exit_code, 2);
+}
+
 TEST(CpdCommand, BadInputIsNamed) {
   const ProgramRun run = RunProgram("cpd --scene nowhere");
   EXPECT_EQ(run.exit_code, 2);

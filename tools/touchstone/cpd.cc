@@ -23,7 +23,7 @@ struct Arguments {
   std::string a, b, scene, csv, svg;
   std::vector<std::string> pose;
   int frames = kPaperFrames;
-  bool judge = false, json = false;
+  bool judge = false, premise = false, json = false;
 };
 
 std::string Words(const Eigen::Vector3d& v) {
@@ -153,7 +153,40 @@ int RunScene(const Arguments& arguments) {
   return findings == 0 ? kFine : kFindings;
 }
 
+// Theorem 3's premise, by scene.
+int RunPremise(const Arguments& arguments) {
+  Json json = Json::array();
+  Table table;
+  table.Row({"scene", "triangles of ∂M", "median angle", "above 10°", "solutions", "median angle",
+             "above 10°"});
+  for (const PaperScene& scene : AllPaperScenes()) {
+    if (!arguments.scene.empty() && scene.name != arguments.scene) continue;
+    const PremiseRow row = MeasurePremise(scene, 5, 40);
+    json.push_back({{"scene", row.scene},
+                    {"triangles", row.triangles},
+                    {"median_deg", row.median_deg},
+                    {"share_above_10", row.share_above_10},
+                    {"solutions", row.solutions},
+                    {"solutions_median_deg", row.solutions_median_deg},
+                    {"solutions_above_10", row.solutions_above_10}});
+    table.Row({row.scene, std::to_string(row.triangles), Fixed(row.median_deg, 1) + "°",
+               Fixed(100.0 * row.share_above_10, 1) + " %", std::to_string(row.solutions),
+               Fixed(row.solutions_median_deg, 1) + "°",
+               Fixed(100.0 * row.solutions_above_10, 1) + " %"});
+  }
+  if (arguments.json) {
+    std::cout << json.dump(2) << '\n';
+  } else {
+    table.PrintMarkdown(std::cout);
+  }
+  return kFine;
+}
+
 int RunCpd(const Arguments& arguments) {
+  if (!arguments.scene.empty() && FindPaperScene(arguments.scene) == nullptr) {
+    return RunScene(arguments);  // which names it
+  }
+  if (arguments.premise) return RunPremise(arguments);
   if (!arguments.scene.empty()) return RunScene(arguments);
   if (arguments.a.empty() || arguments.b.empty()) throw BadInput{"two meshes, or --scene"};
   return RunPair(arguments);
@@ -175,6 +208,8 @@ void AddCpd(CLI::App& app, int& exit_code) {
   command->add_option("--csv", arguments->csv, "file for magnitudes and directions");
   command->add_option("--svg", arguments->svg, "file for them as a figure");
   command->add_flag("--judge", arguments->judge, "hold the depth against the exact half");
+  command->add_flag("--premise", arguments->premise,
+                    "instead: the angles between the normals at triangles' corners, by scene");
   command->add_flag("--json", arguments->json, "print JSON");
   command->callback([arguments, &exit_code] { exit_code = RunCpd(*arguments); });
 }

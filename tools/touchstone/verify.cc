@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "touchstone/tools/membership_run.h"
+#include "touchstone/tools/mesh_depth_run.h"
 #include "touchstone/tools/numbers.h"
 #include "touchstone/tools/proximity_report.h"
 #include "touchstone/tools/proximity_run.h"
@@ -31,7 +32,8 @@ struct Arguments {
   std::string meshes, cases;
   int threads = 0;
   std::string certainty = "exact", early_exit = "mixed", depth = "mixed";
-  bool coverage = false, proximity = false, membership = false, json = false;
+  bool coverage = false, proximity = false, membership = false, mesh_depth = false, nef = false,
+       json = false;
 };
 
 constexpr std::uint64_t kDefaultCount = 1000;
@@ -149,7 +151,60 @@ int RunMembershipCommand(const Arguments& arguments) {
   return wrong == 0 ? kFine : kFindings;
 }
 
+int RunMeshDepthCommand(const Arguments& arguments) {
+  if (arguments.minutes != 0.0) throw BadInput{"--minutes: --mesh-depth takes a --count"};
+  const MeshDepthRunOptions options{arguments.seed, arguments.first,
+                                    arguments.count == 0 ? kDefaultCount : arguments.count,
+                                    arguments.nef};
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const auto stats = RunMeshDepths(options, [&](double fraction) {
+    if (terminal) std::cerr << '\r' << static_cast<int>(100.0 * fraction) << "% " << std::flush;
+  });
+  if (terminal) std::cerr << "\r\033[K";
+  Json json = {{"seed", options.seed},
+               {"first", options.first},
+               {"count", options.count},
+               {"nef", options.nef}};
+  json["results"] = Json::array();
+  Table table;
+  table.Row({"placements", "count", "overlapping", "certain", "by boundary", "natural vertices",
+             "judged", "late", "wrong"});
+  std::uint64_t wrong = 0;
+  for (int p = 0; p < kDepthPlacementCount; ++p) {
+    const MeshDepthStats& own = stats[p];
+    const std::string name(ToString(static_cast<DepthPlacement>(p)));
+    json["results"].push_back({{"placement", name},
+                               {"placements", own.placements},
+                               {"overlapping", own.overlapping},
+                               {"certain", own.certain},
+                               {"by_boundary", own.by_boundary},
+                               {"natural_vertices", own.natural_vertices},
+                               {"judged", own.judged},
+                               {"late", own.late},
+                               {"wrong", own.wrong},
+                               {"samples", own.samples}});
+    std::vector<std::string> row = {name};
+    for (const std::uint64_t count : {own.placements, own.overlapping, own.certain, own.by_boundary,
+                                      own.natural_vertices, own.judged, own.late, own.wrong}) {
+      row.push_back(std::to_string(count));
+    }
+    table.Row(row);
+    wrong += own.wrong;
+  }
+  if (arguments.json) {
+    std::cout << json.dump(2) << '\n';
+  } else {
+    table.Print(std::cout);
+    for (const MeshDepthStats& own : stats) {
+      for (const std::string& sample : own.samples) std::cout << sample << '\n';
+    }
+  }
+  return wrong == 0 ? kFine : kFindings;
+}
+
 int RunVerifyCommand(const Arguments& arguments) {
+  if (arguments.nef && !arguments.mesh_depth) throw BadInput{"--nef: belongs to --mesh-depth"};
+  if (arguments.mesh_depth) return RunMeshDepthCommand(arguments);
   if (arguments.membership) return RunMembershipCommand(arguments);
   if (!arguments.meshes.empty() && !std::filesystem::is_directory(arguments.meshes)) {
     throw BadInput{"--meshes: " + arguments.meshes + " is not a folder"};
@@ -233,6 +288,12 @@ void AddVerify(CLI::App& app, int& exit_code) {
       "--membership", arguments->membership,
       "ask where meshes stand, exactly, near contact and anywhere: --count placements "
       "from --first on, on one thread");
+  command->add_flag("--mesh-depth", arguments->mesh_depth,
+                    "ask global depths of meshes, judged by exact upper and lower checks: --count "
+                    "placements from --first on, on one thread");
+  command->add_flag("--nef", arguments->nef,
+                    "with --mesh-depth: small bodies, against whole boundaries by Nef polyhedra, "
+                    "30 s each at most");
   command->add_flag("--json", arguments->json, "print JSON");
   command->footer(
       "Exit code 1 when a proven search has a finding; the published search's are counted, not an "

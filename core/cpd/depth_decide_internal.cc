@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether the nearest point of a piece is the answer.
+#include <cmath>
+
+#include "touchstone/core/cpd/depth_searcher_internal.h"
+
+namespace touchstone::internal {
+namespace {
+
+constexpr double kNameDistance = 0x1p-24;  // a name further off than this is not the point's
+
+}  // namespace
+
+using Eigen::Vector3d;
+
+Verdict DepthSearcher::VerdictAt(const Vector3d& x) {
+  ++result_.memberships;
+  last_ = Membership(pair_, Vector3d(x / pair_.scale()), {Certainty::kFloat}, &s_.membership);
+  return last_.verdict;
+}
+
+void DepthSearcher::TryRemembered() {
+  if (!s_.answer || !IsNameOfPair(*s_.answer)) return;
+  const auto point = EstimatePoint(pair_, *s_.answer);
+  if (point) answer_.was_warm = IsOutside(*s_.answer, *point);
+}
+
+bool DepthSearcher::IsOutside(const ContactName& name, const PointEstimate& point) {
+  for (const Vector3d& out : {point.out, Vector3d(point.at.stableNormalized())}) {
+    const Vector3d x = point.at + kStep * out;
+    if (!x.allFinite()) continue;
+    const Verdict verdict = VerdictAt(x);
+    if (verdict == Verdict::kOverlap) AddWitness(x, last_.face_a, last_.face_b);
+    if (verdict != Verdict::kSeparate) continue;
+    if (x.norm() * kRoundUp < answer_.upper) Take(x, name);
+    return true;
+  }
+  return false;
+}
+
+bool DepthSearcher::IsNameOfPair(const ContactName& name) const {
+  const TriangleMesh &a = pair_.a().mesh, &b = pair_.b().mesh;
+  const auto is_vertex = [&](const SumVertex& v) {
+    return v.a >= 0 && v.a < a.vertex_count() && v.b >= 0 && v.b < b.vertex_count();
+  };
+  const auto is_facet = [&](const SumFacet& f) {
+    const bool face_a = f.kind == SumFacetKind::kFaceVertex,
+               face_b = f.kind == SumFacetKind::kVertexFace;
+    const int count_a = face_a ? a.face_count() : face_b ? a.vertex_count() : a.edge_count();
+    const int count_b = face_b ? b.face_count() : face_a ? b.vertex_count() : b.edge_count();
+    return f.a >= 0 && f.a < count_a && f.b >= 0 && f.b < count_b;
+  };
+  if (name.is_vertex) return is_vertex(name.vertex);
+  if (!is_facet(name.facet)) return false;
+  for (int k = 0; k < name.wall_count; ++k) {
+    const ContactWall& wall = name.walls[k];
+    if (wall.is_edge ? !is_vertex(wall.from) || !is_vertex(wall.to) : !is_facet(wall.facet)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool DepthSearcher::LookAt(const FacetPiece& piece) {
+  const FacetFrame& frame = FrameOf(piece);
+  if (IsBuried(frame, piece)) return false;
+  if (piece.count >= kMaxPieceCorners - 1) {
+    Halve(piece);
+    return false;
+  }
+  const NearestPoint nearest = NearestOf(piece);
+  const Vector3d x = frame.At(nearest.at);
+  if (piece.cuts < kMaxCuts && CutByKnown(piece, nearest, x)) return false;
+  return Decide(piece, nearest, x);
+}
+
+bool DepthSearcher::Decide(const FacetPiece& piece, const NearestPoint& nearest,
+                           const Vector3d& x) {
+  const ContactName name = NameOf(piece, nearest);
+  const auto point = EstimatePoint(pair_, name);
+  const bool is_near = point && (point->at - x).norm() < kNameDistance;
+  if (is_near && IsOutside(name, *point)) return found_ = true;
+  const bool may_cut = piece.cuts < kMaxCuts;
+  if (is_near && may_cut && CutByKnown(piece, nearest, x)) return false;
+  const Verdict verdict = VerdictAt(x);
+  if (verdict == Verdict::kSeparate) {
+    Take(x, name);
+    return found_ = true;
+  }
+  if (verdict == Verdict::kOverlap && may_cut) {
+    AddWitness(x, last_.face_a, last_.face_b);
+    if (CutByKnown(piece, nearest, x)) return false;
+    AddAllWitnesses(x);
+    if (CutByKnown(piece, nearest, x)) return false;
+  }
+  if (is_near && options_.certainty == Certainty::kExact && IsOutsideExactly(name)) {
+    return found_ = true;
+  }
+  LeaveOpen(piece, piece.distance);
+  CutCrumb(piece, nearest);
+  return false;
+}
+
+ContactName DepthSearcher::NameOf(const FacetPiece& piece, const NearestPoint& nearest) const {
+  const MetFacet& facet = s_.facets[piece.facet];
+  ContactName name;
+  if (facet.is_vertex) {
+    name.is_vertex = true;
+    name.vertex = facet.vertex;
+    return name;
+  }
+  name.facet = facet.frame.name;
+  const SumCorners& corners = facet.frame.corners;
+  for (int k = 0; k < nearest.wall_count; ++k) {
+    const int wall = nearest.walls[k];
+    if (wall == kNoWall) continue;
+    ContactWall& out = name.walls[name.wall_count++];
+    if (wall >= 0) {
+      out.facet = FacetOf(pair_, s_.prisms.prism(wall / kPrismPlanes).name, wall % kPrismPlanes);
+      OrientWall(s_.prisms.prism(wall / kPrismPlanes).normals[wall % kPrismPlanes], &out.facet);
+    } else {
+      const int side = -1 - wall;
+      out.is_edge = true;
+      out.from = corners.vertices[side];
+      out.to = corners.vertices[(side + 1) % corners.count];
+    }
+  }
+  if (name.wall_count == 2 && name.walls[0].is_edge && name.walls[1].is_edge) {
+    // Two sides of the facet meet in a corner of it.
+    const ContactWall &p = name.walls[0], &q = name.walls[1];
+    name.is_vertex = true;
+    name.vertex = p.from == q.from || p.from == q.to ? p.from : p.to;
+  }
+  return name;
+}
+
+void DepthSearcher::OrientWall(const Vector3d& normal, SumFacet* facet) const {
+  if (facet->kind != SumFacetKind::kEdgeEdge) return;
+  facet->is_along_cross = EstimatePlane(pair_, *facet).normal.dot(normal) > 0.0;
+}
+
+bool DepthSearcher::IsOutsideExactly(const ContactName& name) {
+  const auto exact = ExactPointOf(pair_, name);
+  if (!exact) return false;
+  Vector3d x;
+  for (int k = 0; k < 3; ++k) x[k] = RatioToDouble(exact->coordinates[k], exact->denominator);
+  const double error = 0x1p-52 * x.cwiseAbs().maxCoeff() + 0x1p-1074;
+  ++result_.exact_memberships;
+  last_ = Membership(pair_, Translation(x, error, *exact), {Certainty::kExact}, &s_.membership);
+  if (last_.verdict == Verdict::kOverlap) return false;
+  const Vector3d scaled = x * pair_.scale();
+  if (!(scaled.norm() < answer_.upper)) return true;
+  Take(scaled, name);
+  answer_.at_error = 2.0 * error * pair_.scale();
+  answer_.is_exact = true;
+  return true;
+}
+
+}  // namespace touchstone::internal
