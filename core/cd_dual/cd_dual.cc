@@ -5,6 +5,7 @@
 
 #include "touchstone/core/cd_dual/certify.h"
 #include "touchstone/core/cd_dual/common_point.h"
+#include "touchstone/core/cd_dual/enclosure.h"
 #include "touchstone/core/cd_dual/exact_portal.h"
 #include "touchstone/core/cd_dual/face_of_m.h"
 #include "touchstone/core/cd_dual/measure.h"
@@ -291,6 +292,8 @@ class Query {
   // kFloat, when a tie hides the facet: the verdict may still be certain.
   void ConcludeVerdictAlone(const std::array<VertexPair, 3>& triangle) {
     if (ConcludeEnclosed(triangle)) return;
+    const auto other = FindClearEnclosure(&signs_, triangle, &log_.of(Phase::kPortal));
+    if (other && ConcludeEnclosed(*other)) return;
     const Eigen::Vector3d normal = signs_.Plane(triangle).normal;
     CornerPair support = m_.Corners(m_.Support(normal, triangle[0], &log_.of(Phase::kPortal)));
     ConcludeSeparate(normal, &support);

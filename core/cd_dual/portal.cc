@@ -37,6 +37,10 @@ TOUCHSTONE_INLINE bool IsOutside(double height, const MinkowskiDifference& m, do
   return height < -4.0 * m.coordinate_error() * length;
 }
 
+TOUCHSTONE_INLINE bool IsSame(const FramePoint& a, const FramePoint& b) {
+  return a.p == b.p && a.q == b.q;
+}
+
 class PortalSearch {
  public:
   TOUCHSTONE_INLINE PortalSearch(const MinkowskiDifference& m, bool early_exit, Proposal* proposal)
@@ -140,7 +144,11 @@ class PortalSearch {
     for (int round = 0; round < kMaxRounds; ++round) {
       const double za = x_[0].z + m_.c_norm(), zb = x_[1].z + m_.c_norm();
       const double nx = x_[0].y * zb - za * x_[1].y, ny = za * x_[1].x - x_[0].x * zb;
-      if (!Probe(nx, ny, Turn(x_[0], x_[1]), &x_[2])) return false;
+      const double nz = Turn(x_[0], x_[1]);
+      if (!Probe(nx, ny, nz, &x_[2])) return false;
+      // One of the two lies in the plane: the look has missed what a climb finds.
+      if (IsSame(x_[2], x_[0]) || IsSame(x_[2], x_[1]))
+        x_[2] = frame_.Climb(nx, ny, nz, x_[2], &climb_steps_);
       if (Turn(x_[2], x_[0]) < 0.0) {
         x_[1] = x_[2];
       } else if (Turn(x_[1], x_[2]) < 0.0) {
@@ -183,7 +191,7 @@ class PortalSearch {
 
   TOUCHSTONE_INLINE bool IsBeyond(double nx, double ny, double nz, const FramePoint& w) const {
     for (const FramePoint& x : x_) {
-      if (w.p == x.p && w.q == x.q) return false;
+      if (IsSame(w, x)) return false;
     }
     return nx * (w.x - x_[0].x) + ny * (w.y - x_[0].y) + nz * (w.z - x_[0].z) > 0.0;
   }

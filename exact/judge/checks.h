@@ -63,6 +63,13 @@ class JudgeContext {
   const SupportingFeatures& SupportingTriangle() const;
   // The truth, from scratch; computed when first asked for.
   const ExactDecision& Decision() const;
+  // The same from another choice of interior points.
+  ExactDecision DecisionFrom(int interior_p, int interior_q) const {
+    return Decide(p_, q_, pose_, interior_p, interior_q);
+  }
+  PlacedPair PairFrom(int interior_p, int interior_q) const {
+    return {p_.data(), q_.data(), pose_, interior_p, interior_q};
+  }
   // 1/s of the true exit: from a face proven to be crossed, or from Decision(). Requires c != o.
   Ratio ExitRatio() const;
 

@@ -347,6 +347,27 @@ TEST_F(JudgeTest, Undecided) {
               UnorderedElementsAre(FindingKind::kUndecided));
 }
 
+// All four c and an edge of M in the plane x = y: no determinant in doubles tells the ray's side.
+TEST(JudgeUndecided, StandsInDoublesWhereEveryRayMeetsAnEdgeOfAnOverlap) {
+  const ConvexPolyhedron cube = Box({-1, -1, -1}, {1, 1, 1});
+  const ExactBody body(cube, {0, 0, 0}, {0.25, 0.25, 0});
+  const auto kinds = [&](const Eigen::Vector3d& translation, Certainty certainty) {
+    CollideResult result;
+    result.interior_difference = -translation;
+    return exact::Kinds(Judge(body, body, Pose(Eigen::Matrix3d::Identity(), translation), result,
+                              {.certainty = certainty}));
+  };
+  EXPECT_THAT(kinds({0.5, 0.5, 0}, Certainty::kFloat), IsEmpty());
+  EXPECT_THAT(kinds({0.5, 0.5, 0}, Certainty::kExact),
+              UnorderedElementsAre(FindingKind::kUndecided));
+  // Next to the edge; a face; apart.
+  for (const Eigen::Vector3d& translation :
+       {Eigen::Vector3d(0.5, 0.5 + 0x1p-34, 0), {0.5, 0.25, 0}, {3, 3, 0}}) {
+    EXPECT_THAT(kinds(translation, Certainty::kFloat),
+                UnorderedElementsAre(FindingKind::kUndecided));
+  }
+}
+
 TEST(JudgeCoincident, OnlyUnderEarlyExit) {
   const ExactBody box(Box({-1, -1, -1}, {1, 1, 1}));
   CollideResult result;
