@@ -70,6 +70,17 @@ TEST(Campaign, AnotherPlanIsRefusedAndACountMayGrow) {
     RunCampaign(plan, {.count = 900}, store, *workers, nullptr);
     EXPECT_EQ(CampaignTotals(store).Of("portal", keys::kQueries), 1000u);
   }
+  // Suites may be added, and none taken away.
+  plan.suites.push_back(all[7].get());
+  {
+    CampaignStore store(folder.path("out"), plan);
+    const auto workers = MakeLocalWorkers(plan, 1, 20.0);
+    RunCampaign(plan, {.count = 1000}, store, *workers, nullptr);
+    EXPECT_EQ(CampaignTotals(store).Of("portal", keys::kQueries), 2000u);
+  }
+  plan.suites.pop_back();
+  EXPECT_THROW(CampaignStore(folder.path("out"), plan), BadInput);
+  plan.suites.push_back(all[7].get());
   plan.seed = 4;
   try {
     const CampaignStore other(folder.path("out"), plan);

@@ -92,6 +92,7 @@ TEST(Suites, GiveTheSameDoublesOnEveryMachine) {
       {"nested", 0x5d32f003b2cb6ca8u},
       {"world-poses", 0x837f50e4c0d4415fu},
       {"reported", 0x91fbb23387a0b8d7u},
+      {"seldom", 0x779bddb61feaf9cbu},
   };
   for (const std::unique_ptr<Suite>& suite : AvailableSuites()) {
     Hash hash;

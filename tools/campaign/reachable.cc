@@ -2,108 +2,119 @@
 #include "touchstone/tools/campaign/reachable.h"
 
 #include <array>
+#include <optional>
+
+#include "touchstone/core/cd_dual/result.h"
 
 namespace touchstone {
 namespace {
 
-// What came up among 433,920 queries of each search over all suites.
-constexpr std::array<std::string_view, 48> kPortal = {{
-    "EdgeEdge exact overlap optimal exact",     "EdgeEdge exact separate optimal exact",
-    "EdgeEdge exact touch optimal exact",       "EdgeEdge portal overlap optimal bound",
-    "EdgeEdge portal overlap optimal exact",    "EdgeEdge portal separate optimal bound",
-    "EdgeEdge portal separate optimal exact",   "EdgeEdge portal touch optimal exact",
-    "EdgeFace exact overlap optimal exact",     "EdgeFace exact separate optimal exact",
-    "EdgeFace exact touch optimal exact",       "EdgeFace portal overlap optimal exact",
-    "EdgeFace portal separate optimal exact",   "EdgeFace portal touch optimal exact",
-    "FaceEdge exact overlap optimal exact",     "FaceEdge exact separate optimal exact",
-    "FaceEdge exact touch optimal exact",       "FaceEdge portal overlap optimal exact",
-    "FaceEdge portal separate optimal exact",   "FaceEdge portal touch optimal exact",
-    "FaceFace exact overlap optimal exact",     "FaceFace exact separate optimal exact",
-    "FaceFace exact touch optimal exact",       "FaceFace portal overlap optimal exact",
-    "FaceFace portal separate optimal exact",   "FaceFace portal touch optimal exact",
-    "FaceVertex exact overlap optimal exact",   "FaceVertex exact separate optimal exact",
-    "FaceVertex exact touch optimal exact",     "FaceVertex portal overlap optimal bound",
-    "FaceVertex portal overlap optimal exact",  "FaceVertex portal separate optimal bound",
-    "FaceVertex portal separate optimal exact", "FaceVertex portal touch optimal exact",
-    "VertexFace exact overlap optimal exact",   "VertexFace exact separate optimal exact",
-    "VertexFace exact touch optimal exact",     "VertexFace portal overlap optimal bound",
-    "VertexFace portal overlap optimal exact",  "VertexFace portal separate optimal bound",
-    "VertexFace portal separate optimal exact", "VertexFace portal touch optimal exact",
-    "none portal overlap early_exit bound",     "none portal overlap early_exit exact",
-    "none portal separate early_exit bound",    "none portal separate early_exit scan",
-    "none start overlap coincident exact",      "none start separate early_exit bound",
-}};
-constexpr std::array<std::string_view, 123> kPhased = {{
-    "EdgeEdge EdgeEdge overlap optimal bound",      "EdgeEdge EdgeEdge overlap optimal exact",
-    "EdgeEdge EdgeEdge separate optimal bound",     "EdgeEdge EdgeEdge separate optimal exact",
-    "EdgeEdge EdgeEdge touch optimal exact",        "EdgeEdge FaceVertex overlap optimal bound",
-    "EdgeEdge FaceVertex overlap optimal exact",    "EdgeEdge FaceVertex separate optimal bound",
-    "EdgeEdge FaceVertex separate optimal exact",   "EdgeEdge FaceVertex touch optimal exact",
-    "EdgeEdge VertexFace overlap optimal bound",    "EdgeEdge VertexFace overlap optimal exact",
-    "EdgeEdge VertexFace separate optimal bound",   "EdgeEdge VertexFace separate optimal exact",
-    "EdgeEdge VertexFace touch optimal exact",      "EdgeEdge exact overlap optimal exact",
-    "EdgeEdge exact separate optimal exact",        "EdgeEdge exact touch optimal exact",
-    "EdgeEdge overlay overlap optimal exact",       "EdgeEdge overlay separate optimal exact",
-    "EdgeEdge overlay touch optimal exact",         "EdgeEdge portal overlap optimal bound",
-    "EdgeEdge portal overlap optimal exact",        "EdgeEdge portal separate optimal bound",
-    "EdgeEdge portal separate optimal exact",       "EdgeEdge portal touch optimal exact",
-    "EdgeFace EdgeEdge overlap optimal exact",      "EdgeFace EdgeEdge separate optimal exact",
-    "EdgeFace EdgeEdge touch optimal exact",        "EdgeFace FaceVertex overlap optimal exact",
-    "EdgeFace FaceVertex separate optimal exact",   "EdgeFace FaceVertex touch optimal exact",
-    "EdgeFace VertexFace overlap optimal exact",    "EdgeFace VertexFace separate optimal exact",
-    "EdgeFace VertexFace touch optimal exact",      "EdgeFace exact overlap optimal exact",
-    "EdgeFace exact separate optimal exact",        "EdgeFace exact touch optimal exact",
-    "EdgeFace overlay overlap optimal exact",       "EdgeFace portal overlap optimal exact",
-    "EdgeFace portal separate optimal exact",       "EdgeFace portal touch optimal exact",
-    "FaceEdge EdgeEdge overlap optimal exact",      "FaceEdge EdgeEdge separate optimal exact",
-    "FaceEdge EdgeEdge touch optimal exact",        "FaceEdge FaceVertex overlap optimal exact",
-    "FaceEdge FaceVertex separate optimal exact",   "FaceEdge FaceVertex touch optimal exact",
-    "FaceEdge VertexFace overlap optimal exact",    "FaceEdge VertexFace separate optimal exact",
-    "FaceEdge VertexFace touch optimal exact",      "FaceEdge exact overlap optimal exact",
-    "FaceEdge exact separate optimal exact",        "FaceEdge exact touch optimal exact",
-    "FaceEdge portal overlap optimal exact",        "FaceEdge portal separate optimal exact",
-    "FaceEdge portal touch optimal exact",          "FaceFace EdgeEdge overlap optimal exact",
-    "FaceFace EdgeEdge separate optimal exact",     "FaceFace EdgeEdge touch optimal exact",
-    "FaceFace FaceVertex overlap optimal exact",    "FaceFace FaceVertex separate optimal exact",
-    "FaceFace FaceVertex touch optimal exact",      "FaceFace VertexFace overlap optimal exact",
-    "FaceFace VertexFace separate optimal exact",   "FaceFace VertexFace touch optimal exact",
-    "FaceFace exact overlap optimal exact",         "FaceFace exact separate optimal exact",
-    "FaceFace exact touch optimal exact",           "FaceFace portal overlap optimal exact",
-    "FaceFace portal separate optimal exact",       "FaceFace portal touch optimal exact",
-    "FaceVertex EdgeEdge overlap optimal exact",    "FaceVertex EdgeEdge separate optimal exact",
-    "FaceVertex EdgeEdge touch optimal exact",      "FaceVertex FaceVertex overlap optimal bound",
-    "FaceVertex FaceVertex overlap optimal exact",  "FaceVertex FaceVertex separate optimal bound",
-    "FaceVertex FaceVertex separate optimal exact", "FaceVertex FaceVertex touch optimal exact",
-    "FaceVertex exact overlap optimal exact",       "FaceVertex exact separate optimal exact",
-    "FaceVertex exact touch optimal exact",         "FaceVertex overlay overlap optimal bound",
-    "FaceVertex overlay overlap optimal exact",     "FaceVertex overlay separate optimal bound",
-    "FaceVertex overlay separate optimal exact",    "FaceVertex overlay touch optimal exact",
-    "FaceVertex portal overlap optimal bound",      "FaceVertex portal overlap optimal exact",
-    "FaceVertex portal separate optimal bound",     "FaceVertex portal separate optimal exact",
-    "FaceVertex portal touch optimal exact",        "VertexFace EdgeEdge overlap optimal exact",
-    "VertexFace EdgeEdge separate optimal exact",   "VertexFace EdgeEdge touch optimal exact",
-    "VertexFace VertexFace overlap optimal bound",  "VertexFace VertexFace overlap optimal exact",
-    "VertexFace VertexFace separate optimal bound", "VertexFace VertexFace separate optimal exact",
-    "VertexFace VertexFace touch optimal exact",    "VertexFace exact overlap optimal exact",
-    "VertexFace exact separate optimal exact",      "VertexFace exact touch optimal exact",
-    "VertexFace overlay overlap optimal bound",     "VertexFace overlay overlap optimal exact",
-    "VertexFace overlay separate optimal bound",    "VertexFace overlay separate optimal exact",
-    "VertexFace overlay touch optimal exact",       "VertexFace portal overlap optimal bound",
-    "VertexFace portal overlap optimal exact",      "VertexFace portal separate optimal bound",
-    "VertexFace portal separate optimal exact",     "VertexFace portal touch optimal exact",
-    "none EdgeEdge separate early_exit bound",      "none EdgeEdge separate early_exit scan",
-    "none FaceVertex separate early_exit bound",    "none FaceVertex separate early_exit scan",
-    "none VertexFace separate early_exit bound",    "none VertexFace separate early_exit scan",
-    "none overlay separate early_exit bound",       "none overlay separate early_exit scan",
-    "none start overlap coincident exact",
-}};
+constexpr std::array kClasses = {FaceClass::kFaceVertex, FaceClass::kVertexFace,
+                                 FaceClass::kEdgeEdge,   FaceClass::kFaceEdge,
+                                 FaceClass::kEdgeFace,   FaceClass::kFaceFace};
+constexpr std::array kVerdicts = {Verdict::kSeparate, Verdict::kTouch, Verdict::kOverlap};
+constexpr std::array kTiers = {Tier::kBound, Tier::kScan, Tier::kExact};
+
+// Of an end with an exit face: kOptimal. Three rules hold whatever the search and the phase.
+bool NamesFaceAtTier(FaceClass face_class, Verdict verdict, Tier tier) {
+  // Scans of all vertices prove separation by a direction, never a facet.
+  if (tier == Tier::kScan) return false;
+  if (tier == Tier::kExact) return true;
+  // That o is in the plane is a sign that is zero, and no bound proves a zero.
+  if (verdict == Verdict::kTouch) return false;
+  // That a feature is parallel to the facet's plane is a zero, too, but for what spans the plane.
+  return face_class == FaceClass::kFaceVertex || face_class == FaceClass::kVertexFace ||
+         face_class == FaceClass::kEdgeEdge;
+}
+
+// Which phase may have named the facet that was then proven to be of this class at this tier.
+bool PhasedEndsAt(Phase phase, FaceClass face_class, Tier tier) {
+  switch (phase) {
+    case Phase::kFaceVertex:
+      // Its own face, or the one across an edge of that face's polygon, an edge of P plus a vertex
+      // of Q, where doubles see no gain or no arcs: P's part is an edge at least.
+      return face_class != FaceClass::kVertexFace;
+    case Phase::kVertexFace:
+      return face_class != FaceClass::kFaceVertex;
+    case Phase::kEdgeEdge:
+      return true;
+    case Phase::kOverlay:
+      // A face that the search turned to and gained by. SEARCH-EE has looked, by the same doubles,
+      // at all pairs of edges next to its best face: a pair turned to is one across a tie, whose
+      // level vertices take exact signs.
+      return face_class != FaceClass::kEdgeEdge || tier == Tier::kExact;
+    case Phase::kPortal:
+      // Where phases have nothing left to move to, or what they named could not be proven.
+      return true;
+    case Phase::kExact:
+      return tier == Tier::kExact;
+    default:
+      return false;
+  }
+}
+
+bool PortalEndsAt(Phase phase, Tier tier) {
+  return phase == Phase::kPortal || (phase == Phase::kExact && tier == Tier::kExact);
+}
+
+std::string Words(std::optional<FaceClass> face_class, Phase phase, Verdict verdict,
+                  Termination termination, Tier tier) {
+  const auto word = [](std::string_view text) { return ' ' + std::string(text); };
+  return (face_class ? std::string(ToString(*face_class)) : "none") + word(ToString(phase)) +
+         word(ToString(verdict)) + word(ToString(termination)) + word(ToString(tier));
+}
+
+// Ends without a face: c = o, or an early exit. A cache is not asked here, and kExact leaves
+// nothing undecided.
+void AddFaceless(Search search, std::vector<std::string>& list) {
+  const auto add = [&](Phase phase, Verdict verdict, Termination termination, Tier tier) {
+    list.push_back(Words(std::nullopt, phase, verdict, termination, tier));
+  };
+  // c = o is three zeros.
+  add(Phase::kStart, Verdict::kOverlap, Termination::kCoincident, Tier::kExact);
+  if (search == Search::kPortal) {
+    // Balls and ellipsoids apart; then a direction, or a triangle with o behind it.
+    add(Phase::kStart, Verdict::kSeparate, Termination::kEarlyExit, Tier::kBound);
+    add(Phase::kPortal, Verdict::kSeparate, Termination::kEarlyExit, Tier::kBound);
+    add(Phase::kPortal, Verdict::kSeparate, Termination::kEarlyExit, Tier::kScan);
+    add(Phase::kPortal, Verdict::kOverlap, Termination::kEarlyExit, Tier::kBound);
+    add(Phase::kPortal, Verdict::kOverlap, Termination::kEarlyExit, Tier::kExact);
+    return;
+  }
+  // A face with d > 0 separates, whichever it is; overlap takes the exit face.
+  for (const Phase phase :
+       {Phase::kFaceVertex, Phase::kVertexFace, Phase::kEdgeEdge, Phase::kOverlay}) {
+    add(phase, Verdict::kSeparate, Termination::kEarlyExit, Tier::kBound);
+    add(phase, Verdict::kSeparate, Termination::kEarlyExit, Tier::kScan);
+  }
+}
+
+std::vector<std::string> ListOf(Search search) {
+  std::vector<std::string> list;
+  AddFaceless(search, list);
+  for (const FaceClass face_class : kClasses) {
+    for (int i = 0; i < kPhaseCount; ++i) {
+      const auto phase = static_cast<Phase>(i);
+      for (const Verdict verdict : kVerdicts) {
+        for (const Tier tier : kTiers) {
+          if (!NamesFaceAtTier(face_class, verdict, tier)) continue;
+          const bool ends = search == Search::kPortal ? PortalEndsAt(phase, tier)
+                                                      : PhasedEndsAt(phase, face_class, tier);
+          if (ends) list.push_back(Words(face_class, phase, verdict, Termination::kOptimal, tier));
+        }
+      }
+    }
+  }
+  return list;
+}
 
 }  // namespace
 
-std::span<const std::string_view> ReachableCombinations(const std::string& engine) {
-  if (engine == "portal") return kPortal;
-  if (engine == "phased") return kPhased;
-  return {};
+const std::vector<std::string>& ReachableCombinations(const std::string& engine) {
+  static const std::vector<std::string> portal = ListOf(Search::kPortal);
+  static const std::vector<std::string> phased = ListOf(Search::kPhased);
+  static const std::vector<std::string> none;
+  return engine == "portal" ? portal : engine == "phased" ? phased : none;
 }
 
 }  // namespace touchstone

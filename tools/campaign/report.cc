@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <ostream>
 #include <set>
-#include <span>
 
 #include "touchstone/tools/campaign/reachable.h"
 #include "touchstone/tools/engines/registry.h"
@@ -106,6 +105,13 @@ Json CampaignTotals::ToJson() const {
                    {"unresolved", unresolved},
                    {"findings", findings},
                    {"proven_findings", ProvenFindings()}};
+  json["targets"] = Json::array();
+  for (const CampaignTarget& target : FindTargets(*this)) {
+    json["targets"].push_back({{"target", target.name},
+                               {"have", target.have},
+                               {"needed", target.needed},
+                               {"met", target.met}});
+  }
   return json;
 }
 
@@ -130,13 +136,57 @@ void CampaignTotals::Print(std::ostream& out) const {
   }
 }
 
+std::vector<CampaignTarget> FindTargets(const CampaignTotals& totals) {
+  const auto of = [&](std::string_view key) {
+    return totals.Of("portal", key) + totals.Of("phased", key);
+  };
+  const std::uint64_t queries = of(keys::kQueries);
+  std::vector<CampaignTarget> targets;
+  const auto at_least = [&](const char* name, std::uint64_t have, std::uint64_t needed) {
+    targets.push_back({name, have, needed, have >= needed});
+  };
+  const auto none = [&](const char* name, std::uint64_t have) {
+    targets.push_back({name, have, 0, have == 0});
+  };
+  at_least("judged queries", queries, 100'000'000);
+  at_least("of them with n >= 100 (a tenth)", of("n >= 100"), (queries + 9) / 10);
+  at_least("of them with n >= 1000 (a hundredth)", of("n >= 1000"), (queries + 99) / 100);
+  at_least("gap below 1e-12 of the size, no touch", of("gap < 1e-12"), 1'000'000);
+  at_least("exact touches", of("exact touch"), 1'000'000);
+  at_least("phase maxima checked", of("phase maxima checked"), 1'000'000);
+  at_least("M built whole", of("constructed"), 100'000);
+  std::uint64_t reachable = 0, short_of = 0, unlisted = 0;
+  for (const char* engine : {"portal", "phased"}) {
+    const CoverageGaps gaps = FindCoverageGaps(totals, engine, kCoverageFloor);
+    reachable += ReachableCombinations(engine).size();
+    short_of += gaps.too_few.size();
+    unlisted += gaps.unlisted.size();
+  }
+  at_least("reachable combinations met 1000 times", reachable - short_of, reachable);
+  none("combinations not listed as reachable", unlisted);
+  none("wrong verdicts", of(keys::kWrong));
+  none("unresolved", of(keys::kUnresolved));
+  none("findings", of(keys::kFindings));
+  return targets;
+}
+
+void PrintTargets(const std::vector<CampaignTarget>& targets, std::ostream& out) {
+  Table table;
+  table.Row({"proven searches together", "have", "needed", ""});
+  for (const CampaignTarget& target : targets) {
+    table.Row({target.name, std::to_string(target.have), std::to_string(target.needed),
+               target.met ? "met" : "not met"});
+  }
+  table.Print(out);
+}
+
 CoverageGaps FindCoverageGaps(const CampaignTotals& totals, const std::string& engine,
                               std::uint64_t floor) {
   CoverageGaps gaps;
-  const std::span<const std::string_view> reachable = ReachableCombinations(engine);
+  const std::vector<std::string>& reachable = ReachableCombinations(engine);
   if (reachable.empty()) return gaps;
   const Tally hit = totals.WithPrefix(engine, keys::kCoverage);
-  for (const std::string_view combination : reachable) {
+  for (const std::string& combination : reachable) {
     const auto found = hit.find(combination);
     const std::uint64_t count = found == hit.end() ? 0 : found->second;
     if (count < floor) gaps.too_few.emplace_back(combination, count);

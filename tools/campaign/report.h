@@ -41,6 +41,19 @@ class CampaignTotals {
   std::vector<Row> rows_;
 };
 
+// How often each reachable combination is to be met.
+inline constexpr std::uint64_t kCoverageFloor = 1000;
+
+// What a campaign of the proven searches (portal and phased together, always exact) is to reach,
+// and how far it has come: enough of everything, and nothing wrong.
+struct CampaignTarget {
+  std::string name;
+  std::uint64_t have = 0, needed = 0;  // needed 0: none may be had
+  bool met = false;
+};
+std::vector<CampaignTarget> FindTargets(const CampaignTotals& totals);
+void PrintTargets(const std::vector<CampaignTarget>& targets, std::ostream& out);
+
 // Combinations of class, phase, verdict, termination and tier that `engine` can reach
 // (campaign/reachable.cc) and that were hit fewer than `floor` times, with their counts; and those
 // that were hit though they are not listed. Empty for engines without a list.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 
 #include "touchstone/tools/bad_input.h"
@@ -44,6 +45,17 @@ std::vector<std::pair<std::string, std::string>> PlanLines(const CampaignPlan& p
                         std::to_string(rates.values)}};
 }
 
+// Whether every name of the list `some`, with commas between, is in the list `all`: suites may be
+// added to a campaign, since what is counted is counted by suite.
+bool HoldsAll(const std::string& all, const std::string& some) {
+  const std::string names = ',' + all + ',';
+  std::istringstream words(some);
+  for (std::string name; std::getline(words, name, ',');) {
+    if (names.find(',' + name + ',') == std::string::npos) return false;
+  }
+  return true;
+}
+
 // The sum over engines of what is counted under `key`.
 std::uint64_t SumOf(const Tally& tally, std::string_view key) {
   std::uint64_t sum = 0;
@@ -76,6 +88,8 @@ CampaignStore::CampaignStore(const std::string& folder, const CampaignPlan& plan
     const std::string known = PlanValue(key);
     if (known.empty()) {
       Query("INSERT INTO plan(key, value) VALUES(?, ?)", {key, value}, nullptr);
+    } else if (key == "suites" && HoldsAll(value, known)) {
+      Query("UPDATE plan SET value = ? WHERE key = ?", {value, key}, nullptr);
     } else if (known != value) {
       Run("ROLLBACK");
       throw BadInput{path_ + " holds another campaign: its " + key + " is '" + known + "', not '" +

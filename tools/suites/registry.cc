@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "touchstone/tools/suites/ellipsoid.h"
+#include "touchstone/tools/suites/seldom.h"
 
 namespace touchstone {
 namespace {
@@ -18,9 +19,8 @@ constexpr std::array<double, 1> kAspect4 = {4.0};
 constexpr std::array<double, 1> kAspect10 = {10.0};
 constexpr std::array<double, 4> kAspects = {1.0, 2.0, 4.0, 10.0};
 
-}  // namespace
-
-std::vector<std::unique_ptr<Suite>> MakeSuites(const std::string& meshes_dir) {
+// Those that stand alone.
+std::vector<std::unique_ptr<Suite>> MakeGenerators() {
   std::vector<std::unique_ptr<Suite>> suites;
   suites.push_back(
       MakeEllipsoidSuite("ellipsoid-1", "hulls of 8 to 200 points on spheres", kAspect1, kCounts));
@@ -52,6 +52,14 @@ std::vector<std::unique_ptr<Suite>> MakeSuites(const std::string& meshes_dir) {
   suites.push_back(MakeNestedSuite());
   suites.push_back(MakeWorldPosesSuite());
   suites.push_back(MakeReportedSuite());
+  return suites;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<Suite>> MakeSuites(const std::string& meshes_dir) {
+  std::vector<std::unique_ptr<Suite>> suites = MakeGenerators();
+  suites.push_back(MakeSeldomSuite(MakeGenerators()));
   suites.push_back(MakeMeshesSuite(meshes_dir));
   return suites;
 }

@@ -27,7 +27,6 @@ namespace touchstone {
 namespace {
 
 constexpr std::uint64_t kDefaultCount = kBatchIndices;
-constexpr std::uint64_t kCoverageFloor = 1000;
 
 struct Arguments {
   std::vector<std::string> suites = {"all"}, engines = {"ours"};
@@ -35,7 +34,7 @@ struct Arguments {
   std::uint64_t seed = 1, count = 0;
   double minutes = 0.0, hang_seconds = 20.0;
   int threads = 0;
-  double shrink_seconds = 10.0;
+  double shrink_seconds = 10.0, silence_seconds = 120.0;
   SamplingRates rates;
   bool coverage = false, json = false, markdown = false;
 };
@@ -151,6 +150,7 @@ int Conclude(const Arguments& arguments, const CampaignPlan& plan, const Campaig
       coverage.push_back({{"engine", engine}, {"combination", combination}, {"count", count}});
     // Only a run with a stated total can fall short.
     gaps_found |= !gaps.too_few.empty() && end == CampaignEnd::kComplete;
+    gaps_found |= !gaps.unlisted.empty();
     if (arguments.coverage && !arguments.json) PrintCoverage(std::cout, totals, engine, gaps);
   }
   if (arguments.json) {
@@ -160,6 +160,8 @@ int Conclude(const Arguments& arguments, const CampaignPlan& plan, const Campaig
     std::cout << json.dump(2) << '\n';
   } else {
     totals.Print(std::cout);
+    if (totals.Of("portal", keys::kQueries) + totals.Of("phased", keys::kQueries) > 0)
+      PrintTargets(FindTargets(totals), std::cout);
     std::cout << Describe(end) << '\n';
   }
   const bool fails = totals.ProvenFindings() > 0 || (arguments.coverage && gaps_found);
@@ -170,6 +172,9 @@ void CheckArguments(const Arguments& arguments) {
   if (arguments.out.empty()) throw BadInput{"--out: names the folder of the campaign"};
   if (!(arguments.minutes >= 0.0)) throw BadInput{"--minutes: takes a number that is not negative"};
   if (!(arguments.hang_seconds > 0.0)) throw BadInput{"--hang-seconds: takes a positive number"};
+  // A rank says that it is alive every two seconds.
+  if (!(arguments.silence_seconds >= 5.0))
+    throw BadInput{"--silence-seconds: takes a number from 5 on"};
   if (arguments.threads < 0) throw BadInput{"--threads: takes a number that is not negative"};
   if (!arguments.meshes.empty() && !std::filesystem::is_directory(arguments.meshes))
     throw BadInput{"--meshes: " + arguments.meshes + " is not a folder"};
@@ -220,7 +225,7 @@ int RunFuzz(const Arguments& arguments) {
     cluster->Leave(true, kFine);
     return kFine;
   }
-  ClusterWorkers workers(*cluster, std::move(local));
+  ClusterWorkers workers(*cluster, std::move(local), arguments.silence_seconds);
   try {
     const int exit_code = RunHere(arguments, plan, limits, workers);
     std::cout << std::flush;
@@ -260,6 +265,10 @@ void AddFuzz(CLI::App& app, int& exit_code) {
   command->add_option("--out", arguments->out,
                       "folder of the campaign; the same command goes on with it");
   command->add_option("--meshes", arguments->meshes, "folder of meshes for the suite of that name");
+  command
+      ->add_option("--silence-seconds", arguments->silence_seconds,
+                   "a rank that says nothing for longer is given up")
+      ->capture_default_str();
   command
       ->add_option("--hang-seconds", arguments->hang_seconds,
                    "a query that takes longer is ended and counted as a hang")
