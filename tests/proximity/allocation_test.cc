@@ -5,39 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cstdlib>
-#include <new>
 
 #include "touchstone/core/cd_dual/cd_dual.h"
 #include "touchstone/core/proximity/distance.h"
 #include "touchstone/core/proximity/penetration_depth.h"
 #include "touchstone/tests/proximity/brute_force.h"
+#include "touchstone/tests/testing/allocations.h"
 #include "touchstone/tests/testing/shapes.h"
-
-namespace {
-long allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto align = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 
 namespace touchstone::testing {
 namespace {
@@ -54,11 +28,11 @@ TEST(Allocation, NoneInACollisionQuery) {
       CollideCache cache;
       for (const bool early_exit : {true, false}) {
         for (CollideCache* held : {static_cast<CollideCache*>(nullptr), &cache}) {
-          const long before = allocations;
+          const long before = AllocationCount();
           const CollideResult result = Collide(p, q, pose, {.early_exit = early_exit}, held);
           if (result.exact_signs > 0) continue;  // big numbers may allocate
           ++queries;
-          EXPECT_EQ(allocations, before);
+          EXPECT_EQ(AllocationCount(), before);
         }
       }
     }
@@ -86,10 +60,10 @@ TEST(Allocation, NoneInAQueryAfterTheFirst) {
   };
   for (const bool first : {true, false}) {
     for (const bool cold : {true, false}) {
-      allocations = 0;
+      const long before = AllocationCount();
       for (int frame = 0; frame < 200; ++frame) query(frame, cold);
       if (!first) {
-        EXPECT_EQ(allocations, 0) << (cold ? "cold" : "warm");
+        EXPECT_EQ(AllocationCount(), before) << (cold ? "cold" : "warm");
       }
     }
   }

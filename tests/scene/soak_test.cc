@@ -5,37 +5,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "touchstone/core/scene/scene.h"
 #include "touchstone/tests/scene/worlds.h"
-
-namespace {
-long allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto align = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#include "touchstone/tests/testing/allocations.h"
 
 namespace touchstone::testing {
 namespace {
@@ -82,15 +56,15 @@ TEST(Soak, AMillionStepsWithoutGrowth) {
     events += static_cast<long>(scene.Step().events.size());
     if (step == kSettled) {
       bytes = scene.memory().total();
-      allocated = allocations;
+      allocated = AllocationCount();
     }
   }
   EXPECT_GT(events, kSteps);
   EXPECT_LE(scene.memory().total(), bytes);
   // The shape's holder, the broad phase and exact signs may allocate where a body comes and goes.
   std::printf("%zu bytes held, %ld allocations in the last %d steps\n", scene.memory().total(),
-              allocations - allocated, kSteps - kSettled);
-  EXPECT_LT(allocations - allocated, (kSteps - kSettled) / 100);
+              AllocationCount() - allocated, kSteps - kSettled);
+  EXPECT_LT(AllocationCount() - allocated, (kSteps - kSettled) / 100);
 }
 
 }  // namespace
