@@ -152,6 +152,7 @@ void Scene::Data::Wire(int pair) {
     if (each == nullptr) continue;
     if (each->distance) wanted.margin = std::max(wanted.margin.value_or(0.0), *each->distance);
     wanted.depth |= each->depth;
+    wanted.cpd |= each->cpd;
   }
   const auto travel_of = [](const Subscriptions& each, double sense) {
     return PairNumbers::Travel{sense * each.travel->direction, each.travel->reach};
@@ -160,9 +161,10 @@ void Scene::Data::Wire(int pair) {
   if (b.subscriptions.travel) wanted.travels[1] = travel_of(b.subscriptions, 1.0);
   if (own != nullptr && own->travel) wanted.travels[2] = travel_of(*own, 1.0);
   state.is_told = WantsVerdict(a, b, own);
-  state.wants_verdict = state.is_told || wanted.depth ||
+  state.wants_verdict = state.is_told || wanted.depth || wanted.cpd ||
                         (wanted.any() && !(p.part->is_convex() && q.part->is_convex()));
-  if (wanted.any() && state.numbers < 0) state.numbers = numbers.Take();
+  const bool is_new = state.numbers < 0;
+  if (wanted.any() && is_new) state.numbers = numbers.Take();
   if (!wanted.any() && state.numbers >= 0) {
     numbers[state.numbers].p = numbers[state.numbers].q = -1;
     numbers.Return(state.numbers);
@@ -174,13 +176,14 @@ void Scene::Data::Wire(int pair) {
     kept.q = pairs.q(pair);
     kept.margin = wanted.margin;
     kept.depth = wanted.depth;
+    kept.cpd = wanted.cpd;
     kept.travels = wanted.travels;
     kept.is_fresh = true;
     kept.distance_limit = -kInfinity;
-    kept.distance_found.reset();
-    kept.depth_found.reset();
-    kept.mesh_depth_found.reset();
-    for (auto& found : kept.travels_found) found.reset();
+    // A continuous depth goes on where the pair goes on.
+    auto continuous_depth = std::move(kept.found.continuous_depth);
+    kept.found = {};
+    if (wanted.cpd && !is_new) kept.found.continuous_depth = std::move(continuous_depth);
   }
   pairs.limit(pair) = -kInfinity;
 }

@@ -3,8 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+
+#include "touchstone/core/mesh/nearest_points.h"
+#include "touchstone/core/mesh/tree_items.h"
 
 namespace touchstone::internal {
 namespace {
@@ -15,36 +18,10 @@ using Eigen::Vector3d;
 constexpr double kUnit = 0x1p-52;
 constexpr double kUp = 1.0 + 0x1p-46;
 constexpr double kDown = 1.0 - 0x1p-46;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastSize = 0x1p-200, kLargestSize = 0x1p200;
 constexpr int kMostNodes = 1 << 14;  // pairs of nodes opened, as many as a full placing costs
 
 double MaxAbs(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
-
-// The nearest points of two segments, nearly: a guess that FacesApart proves or drops.
-Vector3d BetweenSegments(const Vector3d& a, const Vector3d& b, const Vector3d& c,
-                         const Vector3d& d) {
-  const Vector3d u = b - a, v = d - c, w = c - a;
-  const double uu = u.dot(u), vv = v.dot(v), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
-  const double det = uu * vv - uv * uv;
-  double s = det > 0.0 ? std::clamp((uw * vv - vw * uv) / det, 0.0, 1.0) : 0.0;
-  const double t = vv > 0.0 ? std::clamp((s * uv - vw) / vv, 0.0, 1.0) : 0.0;
-  s = uu > 0.0 ? std::clamp((t * uv + uw) / uu, 0.0, 1.0) : 0.0;
-  return (c + t * v) - (a + s * u);
-}
-
-// From a point of the triangle `t` to the point `x` over it, where x lies over its inside.
-bool BetweenPointAndFace(const Vector3d& x, const Vector3d t[3], Vector3d* between) {
-  const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  for (int k = 0; k < 3; ++k) {
-    const Vector3d side = t[(k + 1) % 3] - t[k];
-    if (normal.cross(side).dot(x - t[k]) < 0.0) return false;
-  }
-  const double squared = normal.squaredNorm();
-  if (!(squared > 0.0)) return false;
-  *between = normal * (normal.dot(x - t[0]) / squared);
-  return true;
-}
 
 double BoxesApart(const Vector3d& low_a, const Vector3d& high_a, const Vector3d& low_b,
                   const Vector3d& high_b) {
@@ -56,32 +33,8 @@ double BoxesApart(const Vector3d& low_a, const Vector3d& high_a, const Vector3d&
   return std::sqrt(squared);
 }
 
-struct Item {
-  Vector3d low, high;
-  int child;
-};
-
-// A lane of a node, or the box round a single face.
-Item LaneOf(const BoxTree& tree, int node, int lane) {
-  const BoxNode& n = tree.node(node);
-  return {Vector3d(n.low[0][lane], n.low[1][lane], n.low[2][lane]),
-          Vector3d(n.high[0][lane], n.high[1][lane], n.high[2][lane]), n.children[lane]};
-}
-
-Item FaceItem(const TriangleMesh& mesh, int face) {
-  const Triangle& t = mesh.face(face);
-  const Vector3d &a = mesh.vertex(t[0]), &b = mesh.vertex(t[1]), &c = mesh.vertex(t[2]);
-  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), ~face};
-}
-
-int ItemsOf(const TriangleMesh& mesh, int node, Item items[kTreeWidth]) {
-  if (node < 0) {
-    items[0] = FaceItem(mesh, ~node);
-    return 1;
-  }
-  const int count = mesh.box_tree().node(node).lane_count;
-  for (int lane = 0; lane < count; ++lane) items[lane] = LaneOf(mesh.box_tree(), node, lane);
-  return count;
+int ItemsOf(const TriangleMesh& mesh, int code, TreeItem items[kTreeWidth]) {
+  return touchstone::ItemsOf(mesh.box_tree(), mesh.vertices(), mesh.faces(), code, items);
 }
 
 }  // namespace
@@ -113,7 +66,7 @@ double MeshMargin::SurfacesApart(double enough, std::vector<std::pair<int, int>>
     const auto [node_a, node_b] = stack->back();
     stack->pop_back();
     if (++opened > kMostNodes) return 0.0;
-    Item items_a[kTreeWidth], items_b[kTreeWidth];
+    TreeItem items_a[kTreeWidth], items_b[kTreeWidth];
     const int count_a = ItemsOf(mesh_a_, node_a, items_a);
     const int count_b = ItemsOf(mesh_b_, node_b, items_b);
     struct Near {
@@ -154,27 +107,13 @@ double MeshMargin::SurfacesApart(double enough, std::vector<std::pair<int, int>>
 // what it is worth. With |n| = 1 up to rounding, |n|_1 < 2: a height is off by 3.1 u of the size
 // and B's by the error of its points.
 double MeshMargin::FacesApart(int face_a, int face_b) const {
-  Vector3d a[3], b[3];
+  std::array<Vector3d, 3> a, b;
   for (int k = 0; k < 3; ++k) {
     a[k] = mesh_a_.vertex(mesh_a_.face(face_a)[k]);
     b[k] = PointOfB(mesh_b_.face(face_b)[k]);
   }
-  Vector3d between = Vector3d::Zero(), candidate;
-  double least = kInfinity;
-  const auto offer = [&](const Vector3d& v) {
-    const double squared = v.squaredNorm();
-    if (squared < least) {
-      least = squared;
-      between = v;
-    }
-  };
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      offer(BetweenSegments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]));
-    }
-    if (BetweenPointAndFace(b[i], a, &candidate)) offer(candidate);
-    if (BetweenPointAndFace(a[i], b, &candidate)) offer(-candidate);
-  }
+  const NearestPoints nearest = NearestPointsOf(a, b);
+  const Vector3d between = nearest.y - nearest.x;
   const double length = between.norm();
   if (!(length > 0.0)) return 0.0;
   const Vector3d n = between / length;

@@ -44,7 +44,10 @@ const MeshPair& PlaceMeshes(const PlacedPart& p, const PlacedPart& q, MeshPairSt
 }
 
 std::size_t MeshPairState::bytes() const {
-  std::size_t total = sizeof *this + stack.capacity() * sizeof stack[0];
+  std::size_t total = sizeof *this + stack.capacity() * sizeof stack[0] +
+                      distance_cache.queue.capacity() * sizeof distance_cache.queue[0] +
+                      travel_cache.queue.capacity() * sizeof travel_cache.queue[0] +
+                      travel_cache.candidates.capacity() * sizeof travel_cache.candidates[0];
   if (!pair) return total;
   for (const PlacedMesh* mesh : {&pair->a(), &pair->b()}) {
     total += mesh->points.capacity() * sizeof mesh->points[0] +

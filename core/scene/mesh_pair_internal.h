@@ -8,6 +8,8 @@
 
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/mesh/mesh_pair.h"
+#include "touchstone/core/mesh/surface_distance.h"
+#include "touchstone/core/mesh/surface_travel.h"
 #include "touchstone/core/scene/convex_pair_internal.h"
 
 namespace touchstone::internal {
@@ -16,6 +18,8 @@ namespace touchstone::internal {
 struct MeshPairState {
   std::optional<MeshPair> pair;  // made when first needed: the size of both meshes
   MembershipCache cache;
+  SurfaceDistanceCache distance_cache;
+  SurfaceTravelCache travel_cache;
   std::vector<std::pair<int, int>> stack;
   std::pair<int, int> crossing{-1, -1};  // faces that crossed last
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Distance, depth and travel of two convex parts, for pairs that are subscribed to them.
+// Distance, depths and travel of two parts, for pairs that are subscribed to them.
 #ifndef TOUCHSTONE_CORE_SCENE_NUMBERS_INTERNAL_H_
 #define TOUCHSTONE_CORE_SCENE_NUMBERS_INTERNAL_H_
 
@@ -8,7 +8,10 @@
 #include <cstddef>
 #include <optional>
 
+#include "touchstone/core/cpd/continuous_penetration_depth.h"
 #include "touchstone/core/cpd/mesh_penetration_depth.h"
+#include "touchstone/core/mesh/surface_distance.h"
+#include "touchstone/core/mesh/surface_travel.h"
 #include "touchstone/core/proximity/directional_distance.h"
 #include "touchstone/core/proximity/distance.h"
 #include "touchstone/core/proximity/penetration_depth.h"
@@ -17,12 +20,23 @@
 
 namespace touchstone::internal {
 
+// The continuous depth of a pair. No guess: it follows the motion, so no rule does without it.
+struct ContinuousDepthTrack {
+  ContinuousDepthTrack(const ScenePart& part_p, const ScenePart& part_q)
+      : p(&part_p), q(&part_q), solver(part_p.mesh(), part_q.mesh()) {}
+
+  const ScenePart *p, *q;
+  ContinuousPenetrationDepth solver;
+  int branch = 0;           // of the last answer, as the solver counts
+  int branches_before = 0;  // when the overlap began
+};
+
 // What is wanted of one pair, its caches, and what the last step found.
 struct PairNumbers {
   int p = -1, q = -1;  // parts; -1: not in use
 
   std::optional<double> margin;  // of the distance
-  bool depth = false;
+  bool depth = false, cpd = false;
   // Directions in which Q travels, in the world's frame: of body a (negated), of body b, of the
   // pair.
   struct Travel {
@@ -33,35 +47,51 @@ struct PairNumbers {
 
   DistanceCache distance_cache;
   PenetrationCache penetration_cache;
-  std::optional<MeshDepthCache> mesh_depth_cache;  // made when first needed
+  // Made when first needed.
+  std::optional<MeshDepthCache> mesh_depth_cache;
+  std::optional<ContinuousDepthTrack> track;
   // The distance stays above the margin while the parts' travels add up to less than this.
   double distance_limit;
   bool is_fresh = true;  // nothing was computed yet
 
-  std::optional<DistanceResult> distance_found;  // at most the margin
-  std::optional<PenetrationResult> depth_found;
-  std::optional<MeshDepthResult> mesh_depth_found;
-  std::array<std::optional<DirectionalResult>, 3> travels_found;
+  struct Found {
+    std::optional<DistanceResult> distance;  // at most the margin
+    std::optional<SurfaceDistanceResult> mesh_distance;
+    std::optional<PenetrationResult> depth;
+    std::optional<MeshDepthResult> mesh_depth;
+    std::optional<ContinuousDepthResult> continuous_depth;
+    std::array<std::optional<DirectionalResult>, 3> travels;
+    std::array<std::optional<SurfaceTravelResult>, 3> mesh_travels;
+  } found;
 
-  bool any() const { return margin || depth || travels[0] || travels[1] || travels[2]; }
+  bool any() const { return margin || depth || cpd || travels[0] || travels[1] || travels[2]; }
 };
 
-// Each fills what was found, or empties it. Requires convex parts but where it says otherwise.
+// Each fills what was found, or empties it. Those of meshes are for two parts of which one is a
+// mesh at least, placed in `meshes`, and whose verdict is known; the others for convex parts.
 //
 // Whether the distance is at most the margin is decided in the same way whatever the cache holds:
 // claimed errors are below 1e-12 of the pair's size, so that where a warm answer is within 1e-11 of
 // the size of the margin the question is asked anew without the cache, and elsewhere any answer
-// decides alike.
-// Returns a proven amount by which the distance exceeds the margin, or zero.
+// decides alike. Distances of meshes have no cache.
+// Return a proven amount by which the distance exceeds the margin, or zero.
 double FindDistance(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules,
                     PairNumbers* numbers, SceneCounters* counters);
+double FindMeshDistance(const MeshPair& meshes, Verdict verdict, MeshPairState* state,
+                        PairNumbers* numbers, SceneCounters* counters);
+
 void FindDepth(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules,
                PairNumbers* numbers, SceneCounters* counters);
-// Of two parts of which one is a mesh at least.
 void FindMeshDepth(const PlacedPart& p, const PlacedPart& q, const SceneRules& rules,
-                   MeshPairState* meshes, PairNumbers* numbers, SceneCounters* counters);
+                   const MeshPair& meshes, PairNumbers* numbers, SceneCounters* counters);
+// Of any parts. Requires to be called whenever they move, and not when they do not.
+void FindContinuousDepth(const PlacedPart& p, const PlacedPart& q, Verdict verdict,
+                         PairNumbers* numbers, SceneCounters* counters);
+
 void FindTravels(const PlacedPart& p, const PlacedPart& q, PairNumbers* numbers,
                  SceneCounters* counters);
+void FindMeshTravels(const PlacedPart& p, const MeshPair& meshes, Verdict verdict,
+                     MeshPairState* state, PairNumbers* numbers, SceneCounters* counters);
 
 }  // namespace touchstone::internal
 

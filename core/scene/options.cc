@@ -29,16 +29,6 @@ std::string_view ToString(EventKind value) {
   return "?";
 }
 
-std::string_view ToString(NumberStatus value) {
-  switch (value) {
-    case NumberStatus::kFound:
-      return "found";
-    case NumberStatus::kNeedsConvex:
-      return "needs_convex";
-  }
-  return "?";
-}
-
 void SceneCounters::Add(const SceneCounters& other) {
   bodies += other.bodies;
   parts += other.parts;
@@ -61,6 +51,7 @@ void SceneCounters::Add(const SceneCounters& other) {
   mesh_nodes += other.mesh_nodes;
   distances += other.distances;
   depths += other.depths;
+  continuous_depths += other.continuous_depths;
   travels += other.travels;
   numbers_kept += other.numbers_kept;
 }

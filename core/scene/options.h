@@ -61,7 +61,7 @@ struct Subscriptions {
   bool verdict = true;             // begin, persist and end of contact
   std::optional<double> distance;  // where it is at most this margin
   bool depth = false;              // where the bodies overlap
-  bool cpd = false;                // of meshes: continuous penetration depth
+  bool cpd = false;                // where they overlap: continuous penetration depth
   std::optional<Travel> travel;  // of the subscribed body (of a pair: of the second) until contact
 
   bool any() const { return verdict || distance || depth || cpd || travel; }
@@ -92,8 +92,8 @@ struct SceneCounters {
   long exact_queries = 0;  // of them those that big numbers had to finish
   long meshes_apart = 0;   // decided: by the trees, no mesh placed
   long meshes_placed = 0;
-  long mesh_nodes = 0;                          // pairs of boxes of the trees that were compared
-  long distances = 0, depths = 0, travels = 0;  // numbers computed
+  long mesh_nodes = 0;  // pairs of boxes of the trees that were compared
+  long distances = 0, depths = 0, continuous_depths = 0, travels = 0;  // numbers computed
   long numbers_kept = 0;  // not computed: neither body moved, or further apart than the margin
 
   void Add(const SceneCounters& other);

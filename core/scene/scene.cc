@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "touchstone/core/scene/motion_internal.h"
 #include "touchstone/core/scene/scene_data_internal.h"
@@ -41,9 +43,6 @@ Status CheckSubscriptions(const Subscriptions& wanted) {
     if (!(length >= 1e-100 && length <= 1e100)) {
       return fail("the direction of a travel is not of a length within [1e-100, 1e100]");
     }
-  }
-  if (wanted.cpd) {
-    return fail("continuous penetration depth is not computed in scenes");
   }
   return {};
 }
@@ -102,6 +101,39 @@ internal::Contact Scene::Data::ContactOf(int pair, Verdict verdict) const {
           verdict};
 }
 
+int Scene::Data::TakePart() {
+  if (free_part != kNoPart) return std::exchange(free_part, parts[free_part].next);
+  parts.emplace_back();
+  travel.push_back(0.0);
+  box_limit.push_back(0.0);
+  moved.push_back(0);
+  boxes.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  return static_cast<int>(parts.size()) - 1;
+}
+
+// Bodies count as unmoved again, and removed ones' slots as free, now that their ends were told.
+void Scene::Data::Settle() {
+  for (const std::uint32_t slot : moved_slots) {
+    SceneBody& body = bodies[slot];
+    body.moved = false;
+    ForParts(body, [&](int part) {
+      moved[part] = 0;
+      parts[part].step_motion = 0.0;
+      if (travel[part] == kInfinity) travel[part] = 0.0;
+    });
+  }
+  moved_slots.clear();
+  if (removed_slots.empty()) return;
+  for (const std::uint32_t slot : removed_slots) {
+    SceneBody& body = bodies[slot];
+    ++body.generation;
+    body.life = SceneBody::Life::kFree;
+    free_slots.push_back(slot);
+  }
+  removed_slots.clear();
+  std::sort(free_slots.begin(), free_slots.end(), std::greater<>());
+}
+
 Scene::Scene(const SceneOptions& options) : data_(std::make_unique<Data>(options)) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
@@ -128,17 +160,7 @@ StatusOr<BodyHandle> Scene::Add(const SceneShape& shape, const WorldPose& pose,
   body.subscriptions = subscriptions;
   body.shape = shape;
   for (int index = shape.part_count() - 1; index >= 0; --index) {
-    int part = d.free_part;
-    if (part == kNoPart) {
-      part = static_cast<int>(d.parts.size());
-      d.parts.emplace_back();
-      d.travel.push_back(0.0);
-      d.box_limit.push_back(0.0);
-      d.moved.push_back(0);
-      d.boxes.push_back({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
-    } else {
-      d.free_part = d.parts[part].next;
-    }
+    const int part = d.TakePart();
     const ScenePart& source = shape.part(index);
     d.has_meshes |= !source.is_convex();
     d.parts[part] = {
@@ -288,32 +310,15 @@ SceneStep Scene::Step() {
   d.contacts.Step([&](std::uint32_t slot) { return d.HandleOf(slot); });
   if (!nothing_moved) {
     d.ListNumbers();
-    for (const std::uint32_t slot : d.moved_slots) {
-      SceneBody& body = d.bodies[slot];
-      body.moved = false;
-      d.ForParts(body, [&](int part) {
-        d.moved[part] = 0;
-        d.parts[part].step_motion = 0.0;
-        if (d.travel[part] == kInfinity) d.travel[part] = 0.0;
-      });
-    }
-    d.moved_slots.clear();
-    // Slots may be used again now that their ends were told.
-    for (const std::uint32_t slot : d.removed_slots) {
-      SceneBody& body = d.bodies[slot];
-      ++body.generation;
-      body.life = SceneBody::Life::kFree;
-      d.free_slots.push_back(slot);
-    }
-    d.removed_slots.clear();
-    std::sort(d.free_slots.begin(), d.free_slots.end(), std::greater<>());
+    d.Settle();
   }
   counters.bodies = d.alive_count;
   counters.parts = d.part_count;
   counters.pairs_possible =
       static_cast<long>(d.part_count) * (d.part_count - 1) / 2 - d.pairs_within;
   counters.pairs = d.pairs.size();
-  return {d.contacts.events(), d.distances, d.depths, d.mesh_depths, d.travels, counters};
+  return {d.contacts.events(), d.distances, d.mesh_distances, d.depths, d.mesh_depths,
+          d.continuous_depths, d.travels,   d.mesh_travels,   counters};
 }
 
 bool Scene::Has(BodyHandle body) const { return data_->Find(body) != nullptr; }
@@ -355,9 +360,12 @@ Scene::Memory Scene::memory() const {
   for (int i = 0; i < d.mesh_states.size(); ++i) memory.mesh_pairs += d.mesh_states[i].bytes();
   memory.numbers = static_cast<std::size_t>(d.numbers.size()) * sizeof(internal::PairNumbers) +
                    d.distances.capacity() * sizeof d.distances[0] +
+                   d.mesh_distances.capacity() * sizeof d.mesh_distances[0] +
                    d.depths.capacity() * sizeof d.depths[0] +
                    d.mesh_depths.capacity() * sizeof d.mesh_depths[0] +
-                   d.travels.capacity() * sizeof d.travels[0];
+                   d.continuous_depths.capacity() * sizeof d.continuous_depths[0] +
+                   d.travels.capacity() * sizeof d.travels[0] +
+                   d.mesh_travels.capacity() * sizeof d.mesh_travels[0];
   return memory;
 }
 

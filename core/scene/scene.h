@@ -13,7 +13,10 @@
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/base/status.h"
 #include "touchstone/core/base/verdict.h"
+#include "touchstone/core/cpd/continuous_penetration_depth.h"
 #include "touchstone/core/cpd/mesh_penetration_depth.h"
+#include "touchstone/core/mesh/surface_distance.h"
+#include "touchstone/core/mesh/surface_travel.h"
 #include "touchstone/core/proximity/result.h"
 #include "touchstone/core/scene/options.h"
 #include "touchstone/core/scene/shape.h"
@@ -48,20 +51,12 @@ struct SceneEvent {
   friend bool operator==(const SceneEvent&, const SceneEvent&) = default;
 };
 
-// Why a number that was asked for is not there.
-enum class NumberStatus {
-  kFound,
-  kNeedsConvex,  // the quantity is computed for convex parts only
-};
-std::string_view ToString(NumberStatus);
-
-// A number for two parts: P is the part of body a, Q that of body b, and the result is in P's frame
-// as core/proximity/result.h defines it.
+// A number for two parts: P is the part of body a, Q that of body b, and the result is in P's
+// frame, as the header that defines it says; A and B there are P and Q.
 template <class Result>
 struct SceneNumber {
   BodyPair bodies;
   int part_a = 0, part_b = 0;
-  NumberStatus status = NumberStatus::kFound;
   Result result;
 };
 
@@ -69,17 +64,24 @@ struct SceneNumber {
 // the bodies' slots, then by parts, whatever the number of threads and the rules.
 struct SceneStep {
   std::span<const SceneEvent> events;
-  // Where the distance is at most the margin; of compounds the nearest parts. Zero for bodies that
-  // meet (kMeet).
+  // Where the distance is at most the margin; of compounds each pair of parts by itself. Zero for
+  // bodies that meet (kMeet).
   std::span<const SceneNumber<DistanceResult>> distances;
-  // Of parts that overlap, each pair of parts by itself: how far to move one body so that these two
-  // parts just touch.
+  // The same where one part is a mesh at least: zero, and no faces, for bodies that meet.
+  std::span<const SceneNumber<SurfaceDistanceResult>> mesh_distances;
+  // Of parts that overlap: how far to move one body so that these two parts just touch.
   std::span<const SceneNumber<PenetrationResult>> depths;
   // The same where one part is a mesh at least.
   std::span<const SceneNumber<MeshDepthResult>> mesh_depths;
+  // Of parts that overlap, convex or not: it follows their motion from the step on that began the
+  // overlap, an answer at each step that moves them. Branches are numbered from 1 at that step.
+  std::span<const SceneNumber<ContinuousDepthResult>> continuous_depths;
   // Of parts whose travel begins within the reach. Q travels along the direction; where body a was
   // subscribed and travels, Q travels against it.
   std::span<const SceneNumber<DirectionalResult>> travels;
+  // The same where one part is a mesh at least: until they first meet. Zero, and no faces, for
+  // bodies that meet already.
+  std::span<const SceneNumber<SurfaceTravelResult>> mesh_travels;
   SceneCounters counters;
 };
 
@@ -139,7 +141,7 @@ class Scene {
     std::size_t bodies = 0;      // hot arrays, poses, boxes and the broad phase
     std::size_t pairs = 0;       // the table
     std::size_t mesh_pairs = 0;  // meshes placed for pairs of them
-    std::size_t numbers = 0;     // caches of pairs with numbers, results
+    std::size_t numbers = 0;  // of pairs with numbers, without what depths of meshes keep; results
     std::size_t total() const { return bodies + pairs + mesh_pairs + numbers; }
   };
   // Heap held, without the shapes.

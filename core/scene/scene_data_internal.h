@@ -93,6 +93,8 @@ struct Scene::Data {
     return {data.part, &bodies[data.body].pose, data.turned_middle};
   }
   void MarkMoved(std::uint32_t slot);
+  int TakePart();
+  void Settle();
   // Its box and its pairs, in the next step, though it has not moved.
   void LookAgain(const internal::SceneBody& body);
   // What is wanted of two bodies together; nothing where they pass through each other.
@@ -122,9 +124,15 @@ struct Scene::Data {
 
   // numbers.cc
   void FindNumbers(SceneCounters* counters);
-  void FindNumbersOf(internal::PairNumbers* numbers, SceneCounters* counters);
+  void FindNumbersOf(internal::PairNumbers* wanted, SceneCounters* counters);
+  void FindConvexNumbersOf(Verdict verdict, internal::PairNumbers* wanted,
+                           SceneCounters* counters) const;
+  void FindMeshNumbersOf(internal::MeshPairState* meshes, Verdict verdict,
+                         internal::PairNumbers* wanted, SceneCounters* counters) const;
+  bool KeepsItsDistance(const internal::PairNumbers& wanted, SceneCounters* counters) const;
+  void LimitDistance(double beyond, internal::PairNumbers* wanted) const;
   void ListNumbers();
-  void ListNumbersOf(const internal::PairNumbers& numbers);
+  void ListNumbersOf(const internal::PairNumbers& numbers_of_pair);
 
   double TravelOf(int part) const;
   internal::Contact ContactOf(int pair, Verdict verdict) const;
@@ -168,9 +176,12 @@ struct Scene::Data {
   internal::Pool<internal::PairNumbers> numbers;
   std::vector<int> listed;  // numbers in order
   std::vector<SceneNumber<DistanceResult>> distances;
+  std::vector<SceneNumber<SurfaceDistanceResult>> mesh_distances;
   std::vector<SceneNumber<PenetrationResult>> depths;
   std::vector<SceneNumber<MeshDepthResult>> mesh_depths;
+  std::vector<SceneNumber<ContinuousDepthResult>> continuous_depths;
   std::vector<SceneNumber<DirectionalResult>> travels;
+  std::vector<SceneNumber<SurfaceTravelResult>> mesh_travels;
 };
 
 }  // namespace touchstone

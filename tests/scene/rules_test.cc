@@ -56,6 +56,15 @@ std::vector<NamedOptions> AllOptions() {
           {"none, threads", {NoneInDoubles(), Threads::kAll}}};
 }
 
+struct Bounds {
+  double lower, upper;
+};
+Bounds BoundsOf(const BoundedValue& x) { return {x.value - x.error, x.value + x.error}; }
+template <class Result>
+Bounds ClaimedBounds(const Result& result) {
+  return {result.lower_bound, result.upper_bound};
+}
+
 // The same world in scenes of different rules.
 class Worlds {
  public:
@@ -80,12 +89,16 @@ class Worlds {
       const SceneStep other = scenes_[i].Step();
       ExpectEqualEvents(first, other);
       ExpectSameNumbers(first.distances, other.distances,
-                        [](const DistanceResult& r) { return r.distance; });
+                        [](const DistanceResult& r) { return BoundsOf(r.distance); });
+      ExpectSameNumbers(first.mesh_distances, other.mesh_distances,
+                        ClaimedBounds<SurfaceDistanceResult>);
       ExpectSameNumbers(first.depths, other.depths,
-                        [](const PenetrationResult& r) { return r.depth; });
+                        [](const PenetrationResult& r) { return BoundsOf(r.depth); });
+      ExpectSameNumbers(first.mesh_depths, other.mesh_depths, ClaimedBounds<MeshDepthResult>);
       ExpectSameNumbers(first.travels, other.travels,
-                        [](const DirectionalResult& r) { return r.enter.travel; });
-      ExpectSameDepthsOfMeshes(first.mesh_depths, other.mesh_depths);
+                        [](const DirectionalResult& r) { return BoundsOf(r.enter.travel); });
+      ExpectSameNumbers(first.mesh_travels, other.mesh_travels, ClaimedBounds<SurfaceTravelResult>);
+      ExpectSameMotion(first.continuous_depths, other.continuous_depths);
       totals_.resize(scenes_.size());
       totals_[i].Add(other.counters);
     }
@@ -106,28 +119,36 @@ class Worlds {
     }
   }
 
-  // The same questions answered, and answers whose bounds agree.
-  template <class Number, class ValueOf>
-  static void ExpectSameNumbers(std::span<const Number> first, std::span<const Number> other,
-                                ValueOf value_of) {
+  template <class Number>
+  static void ExpectSameQuestions(std::span<const Number> first, std::span<const Number> other) {
     ASSERT_EQ(first.size(), other.size());
     for (std::size_t k = 0; k < first.size(); ++k) {
       ASSERT_EQ(first[k].bodies, other[k].bodies);
       ASSERT_EQ(first[k].part_a, other[k].part_a);
       ASSERT_EQ(first[k].part_b, other[k].part_b);
-      ASSERT_EQ(first[k].status, other[k].status);
-      const BoundedValue x = value_of(first[k].result), y = value_of(other[k].result);
-      ASSERT_LE(std::abs(x.value - y.value), x.error + y.error);
     }
   }
 
-  static void ExpectSameDepthsOfMeshes(std::span<const SceneNumber<MeshDepthResult>> first,
-                                       std::span<const SceneNumber<MeshDepthResult>> other) {
-    ASSERT_EQ(first.size(), other.size());
+  // The same questions answered, and answers whose bounds agree.
+  template <class Number, class BoundsOfResult>
+  static void ExpectSameNumbers(std::span<const Number> first, std::span<const Number> other,
+                                BoundsOfResult bounds_of) {
+    ASSERT_NO_FATAL_FAILURE(ExpectSameQuestions(first, other));
     for (std::size_t k = 0; k < first.size(); ++k) {
-      ASSERT_EQ(first[k].bodies, other[k].bodies);
-      ASSERT_LE(first[k].result.lower_bound, other[k].result.upper_bound);
-      ASSERT_LE(other[k].result.lower_bound, first[k].result.upper_bound);
+      const Bounds x = bounds_of(first[k].result), y = bounds_of(other[k].result);
+      ASSERT_LE(x.lower, y.upper);
+      ASSERT_LE(y.lower, x.upper);
+    }
+  }
+
+  // Continuous depths follow the motion alone: the same to the last bit.
+  static void ExpectSameMotion(std::span<const SceneNumber<ContinuousDepthResult>> first,
+                               std::span<const SceneNumber<ContinuousDepthResult>> other) {
+    ASSERT_NO_FATAL_FAILURE(ExpectSameQuestions(first, other));
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      ASSERT_EQ(first[k].result.translation, other[k].result.translation);
+      ASSERT_EQ(first[k].result.status, other[k].result.status);
+      ASSERT_EQ(first[k].result.branch, other[k].result.branch);
     }
   }
 
@@ -318,6 +339,48 @@ TEST(Rules, NumbersStayWithinTheirBounds) {
   EXPECT_GT(travels, 250u);
 }
 
+// Distances and travels of meshes, compounds among them, by body and by pair.
+TEST(Rules, DistancesAndTravelsOfMeshes) {
+  std::printf("seed 9\n");
+  Random random(9);
+  Worlds worlds(AllOptions());
+  const std::vector<SceneShape> shapes = {MeshShape("torus", 120, 0.5), CrossShape(),
+                                          MeshShape("u", 0, 0.5), HullShape(20, 3),
+                                          MeshShape("tori", 120, 0.3)};
+  std::vector<BodyHandle> bodies;
+  for (int i = 0; i < 10; ++i) {
+    Subscriptions wanted;
+    wanted.verdict = i % 3 != 0;
+    if (i % 2 == 0) wanted.distance = 0.5;
+    if (i % 5 == 2) wanted.travel = Subscriptions::Travel{{0.3, -0.2, 1.0}, 1.5};
+    const WorldPose pose = RandomPose(random, 2.5);
+    const SceneShape& shape = shapes[i % shapes.size()];
+    bodies.push_back(worlds.ForAll([&](Scene& scene) { return *scene.Add(shape, pose, wanted); }));
+  }
+  Subscriptions pair;
+  pair.verdict = false;
+  pair.distance = 100.0;
+  pair.travel = Subscriptions::Travel{{1, 0, 0}, 50.0};
+  worlds.ForAll([&](Scene& scene) { return scene.SubscribePair(bodies[7], bodies[3], pair).ok(); });
+  std::size_t distances = 0, travels = 0;
+  for (int step = 0; step < 60; ++step) {
+    for (const BodyHandle body : bodies) {
+      if (random.Int(0, 3) == 0) continue;
+      const WorldPose pose = random.Int(0, 60) == 0
+                                 ? RandomPose(random, 2.5)
+                                 : Nudged(random, worlds.scene(0).pose(body), 0.03, 0.03);
+      worlds.ForAll([&](Scene& scene) { return scene.Move(body, pose).ok(); });
+    }
+    const SceneStep found = worlds.Step();
+    if (HasFatalFailure()) FAIL() << "step " << step;
+    distances += found.mesh_distances.size();
+    travels += found.mesh_travels.size();
+  }
+  EXPECT_GT(distances, 300u);
+  EXPECT_GT(travels, 60u);  // measured 94
+  EXPECT_GT(worlds.totals(1).numbers_kept, worlds.totals(5).numbers_kept);  // by margins
+}
+
 TEST(Rules, DepthsOfMeshes) {
   std::printf("seed 8\n");
   Random random(8);
@@ -325,26 +388,43 @@ TEST(Rules, DepthsOfMeshes) {
   Worlds worlds({all[0], all[1], all[2]});
   const std::vector<SceneShape> shapes = {MeshShape("torus", 120, 0.5), MeshShape("u", 0, 0.5),
                                           BoxShape({0.5, 0.5, 0.5})};
-  Subscriptions depth;
-  depth.depth = true;
   std::vector<BodyHandle> bodies;
   for (int i = 0; i < 6; ++i) {
+    Subscriptions depth;
+    depth.depth = true;
+    depth.cpd = i == 0;
     const WorldPose pose = RandomPose(random, 0.6);
     bodies.push_back(
         worlds.ForAll([&](Scene& scene) { return *scene.Add(shapes[i % 3], pose, depth); }));
   }
-  std::size_t depths = 0;
-  for (int step = 0; step < 40; ++step) {
-    for (const BodyHandle body : bodies) {
+  std::size_t depths = 0, continuous = 0, continued = 0;
+  for (int step = 0; step < 30; ++step) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (random.Int(0, 2) == 0) continue;
-      const WorldPose pose = Nudged(random, worlds.scene(0).pose(body), 0.02, 0.02);
-      worlds.ForAll([&](Scene& scene) { return scene.Move(body, pose).ok(); });
+      // The first goes away at times, and comes back: to a cold start, wherever the pair was kept.
+      WorldPose pose = Nudged(random, worlds.scene(0).pose(bodies[i]), 0.02, 0.02);
+      if (i == 0 && step % 10 == 8) pose.translation[0] += 5.0;
+      if (i == 0 && step % 10 == 9 && pose.translation[0] > 2.5) pose.translation[0] -= 5.0;
+      worlds.ForAll([&](Scene& scene) { return scene.Move(bodies[i], pose).ok(); });
     }
     const SceneStep found = worlds.Step();
     if (HasFatalFailure()) FAIL() << "step " << step;
     depths += found.mesh_depths.size();
+    continuous += found.continuous_depths.size();
+    for (const auto& number : found.continuous_depths) {
+      continued += number.result.branch >= 1 && !number.result.branch_ended;
+      // Never shorter than the least way out.
+      const auto same =
+          std::find_if(found.mesh_depths.begin(), found.mesh_depths.end(), [&](const auto& depth) {
+            return depth.bodies == number.bodies && depth.part_b == number.part_b;
+          });
+      if (same == found.mesh_depths.end()) continue;  // of convex parts
+      ASSERT_GE(number.result.translation.norm(), (1 - 1e-9) * same->result.lower_bound);
+    }
   }
   EXPECT_GT(depths, 40u);
+  EXPECT_GT(continuous, 20u);
+  EXPECT_GT(continued, 10u);
 }
 
 }  // namespace

@@ -248,6 +248,98 @@ TEST(SceneSubscriptions, TravelOfTheSubscribedBody) {
   EXPECT_TRUE(scene.Step().travels.empty());
 }
 
+TEST(SceneSubscriptions, DistanceAndTravelOfMeshes) {
+  Scene scene;
+  Subscriptions wanted;
+  wanted.distance = 2.0;
+  wanted.travel = Subscriptions::Travel{{-1, 0, 0}, 2.5};
+  // [0, 3] x [0, 1] x [0, 3] without [1, 2] x [0, 1] x [1, 3], beside a convex body and a compound.
+  scene.Add(Cube(), At({-1, 0.5, 0.5}));
+  const BodyHandle u = *scene.Add(MeshShape("u", 0, 1.0), At({2, 0, 0}), wanted);
+  SceneStep step = scene.Step();
+  ASSERT_EQ(step.mesh_distances.size(), 1u);  // exactly the margin
+  EXPECT_EQ(step.mesh_distances[0].result.distance, 2.0);
+  EXPECT_LE(step.mesh_distances[0].result.lower_bound, 2.0);
+  ASSERT_EQ(step.mesh_travels.size(), 1u);
+  EXPECT_EQ(step.mesh_travels[0].result.travel, 2.0);
+  EXPECT_TRUE(step.distances.empty() && step.travels.empty());
+  EXPECT_TRUE(scene.Move(u, At({2.75, 0, 0})).ok());
+  step = scene.Step();
+  EXPECT_TRUE(step.mesh_distances.empty());
+  EXPECT_TRUE(step.mesh_travels.empty());
+  EXPECT_TRUE(scene.Move(u, At({0, 0, 0})).ok());
+  step = scene.Step();
+  EXPECT_EQ(Told(step), "begin 0 1 touch");
+  ASSERT_EQ(step.mesh_distances.size(), 1u);
+  EXPECT_EQ(step.mesh_distances[0].result.upper_bound, 0.0);
+  ASSERT_EQ(step.mesh_travels.size(), 1u);
+  EXPECT_EQ(step.mesh_travels[0].result.upper_bound, 0.0);
+  EXPECT_EQ(step.mesh_travels[0].result.face_a, -1);
+  EXPECT_TRUE(scene.Move(u, At({2, 0, 0})).ok());
+  scene.Add(CrossShape(), At({3.5, 0.5, 5.0}));
+  step = scene.Step();
+  // Of three parts of the compound those that are near enough.
+  ASSERT_EQ(step.mesh_distances.size(), 4u);
+  EXPECT_EQ(step.mesh_distances[0].bodies.a.slot, 0u);
+  EXPECT_EQ(step.mesh_distances[1].part_b, 0);
+  EXPECT_EQ(step.mesh_distances[3].part_b, 2);
+}
+
+TEST(SceneSubscriptions, ContinuousDepthFollowsTheMotion) {
+  Scene scene;
+  Subscriptions cpd;
+  cpd.verdict = false;
+  cpd.cpd = true;
+  const SceneShape torus = MeshShape("torus", 120, 0.5);
+  const BodyHandle a = *scene.Add(torus, At({0, 0, 0}), cpd);
+  const BodyHandle b = *scene.Add(torus, At({0.3, 0.1, 0.2}), cpd);
+  SceneStep step = scene.Step();
+  EXPECT_EQ(Told(step), "");
+  ASSERT_EQ(step.continuous_depths.size(), 1u);
+  ContinuousDepthResult last = step.continuous_depths[0].result;
+  EXPECT_EQ(last.status, ContinuousDepthStatus::kFound);
+  EXPECT_EQ(last.branch, 1);
+  EXPECT_EQ(step.counters.continuous_depths, 1);
+  // Nothing moves: kept.
+  step = scene.Step();
+  ASSERT_EQ(step.continuous_depths.size(), 1u);
+  EXPECT_EQ(step.counters.continuous_depths, 0);
+  EXPECT_EQ(step.continuous_depths[0].result.translation, last.translation);
+  // It moves as little as the body does, on one branch.
+  for (int i = 1; i <= 10; ++i) {
+    EXPECT_TRUE(scene.Move(b, At({0.3 + 0.002 * i, 0.1, 0.2})).ok());
+    step = scene.Step();
+    ASSERT_EQ(step.continuous_depths.size(), 1u);
+    const ContinuousDepthResult& now = step.continuous_depths[0].result;
+    EXPECT_EQ(now.branch, 1);
+    EXPECT_LT((now.translation - last.translation).norm(), 0.03);
+    last = now;
+  }
+  // Apart, and back: the branches begin anew, as in a scene that knows nothing of before.
+  EXPECT_TRUE(scene.Move(b, At({0, 0, 0.9})).ok());
+  EXPECT_TRUE(scene.Step().continuous_depths.empty());
+  EXPECT_TRUE(scene.Move(b, At({0.32, 0.1, 0.2})).ok());
+  step = scene.Step();
+  ASSERT_EQ(step.continuous_depths.size(), 1u);
+  EXPECT_EQ(step.continuous_depths[0].result.branch, 1);
+  Scene other;
+  other.Add(torus, At({0, 0, 0}), cpd);
+  other.Add(torus, At({0.32, 0.1, 0.2}));
+  EXPECT_EQ(other.Step().continuous_depths[0].result.translation,
+            step.continuous_depths[0].result.translation);
+  // Of convex bodies, too: no shorter than the least way out, which it is where nothing went
+  // before.
+  Scene convex;
+  convex.Add(Cube(), At({0, 0, 0}), cpd);
+  convex.Add(Cube(), At({1.5, 0.25, 0.5}));
+  step = convex.Step();
+  ASSERT_EQ(step.continuous_depths.size(), 1u);
+  EXPECT_GE(step.continuous_depths[0].result.translation.norm(), 0.5 - 1e-12);
+  EXPECT_LT(step.continuous_depths[0].result.translation.norm(), 0.55);
+  EXPECT_TRUE(scene.Remove(a).ok());
+  EXPECT_TRUE(scene.Step().continuous_depths.empty());
+}
+
 TEST(SceneSubscriptions, BadOnesAreRefused) {
   Scene scene;
   const BodyHandle a = *scene.Add(Cube(), At({0, 0, 0}));

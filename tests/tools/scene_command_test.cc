@@ -64,6 +64,35 @@ TEST(SceneCommand, EveryDemoStandsTheCheck) {
   }
 }
 
+// Every quantity, of convex bodies, compounds and meshes.
+constexpr std::string_view kAllNumbers = R"({
+  "shapes": {"cube": {"box": [0.5, 0.5, 0.5]}, "torus": {"mesh": "torus", "faces": 120, "scale": 0.5},
+             "bars": {"compound": [{"box": [1, 0.1, 0.1]}, {"box": [0.1, 1, 0.1]}]}},
+  "bodies": [
+    {"shape": "torus", "subscriptions": {"distance": 0.4, "depth": true, "cpd": true,
+                                         "travel": {"direction": [0, 0, 1], "reach": 1}}},
+    {"shape": "cube", "position": [1.2, 0, 1.1], "motion": {"velocity": [0, 0, -0.1]}},
+    {"shape": "bars", "position": [-1.2, 0, 1.0], "motion": {"velocity": [0, 0.05, -0.1]},
+     "subscriptions": {"distance": 3, "depth": true, "travel": {"direction": [1, 0, 0], "reach": 4}}},
+    {"shape": "torus", "position": [0, 1, -0.9], "motion": {"velocity": [0, 0, 0.1], "spin": [0.1, 0, 0]}}],
+  "steps": 10})";
+
+TEST(SceneCommand, EveryNumberIsListedAndJudged) {
+  const TemporaryFolder folder("scene");
+  const ProgramRun run = RunProgram("scene " + folder.Write("numbers.json", kAllNumbers) +
+                                    " --check --json --numbers " + folder.path("numbers.csv"));
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_EQ(run.json()["mismatches"], 0);
+  EXPECT_EQ(run.json()["findings"], 0);
+  EXPECT_GT(run.json()["numbers_checked"], 50);
+  const std::string listed = folder.Read("numbers.csv");
+  EXPECT_THAT(listed, StartsWith("step,quantity,body_a,part_a,body_b,part_b,value,lower,upper,"));
+  for (const char* quantity : {"distance", "depth", "continuous_depth", "travel"}) {
+    EXPECT_GE(run.json()["numbers_judged"][std::string(quantity) + "s"], 4) << quantity;
+    EXPECT_THAT(listed, HasSubstr(std::string(",") + quantity + ',')) << quantity;
+  }
+}
+
 TEST(SceneCommand, RulesDoNotChangeWhatIsTold) {
   const TemporaryFolder folder("scene");
   const std::string record = folder.path("record.json");
@@ -94,7 +123,17 @@ TEST(SceneCommand, BadFilesAreNamedWithTheElement) {
       {R"({"bodies": []})", "lacks 'shapes'"},
       {R"({"shapes": {"cube": {"box": [1, 1]}}, "bodies": []})",
        "shapes.cube.box: is no list of 3 numbers"},
-      {R"({"shapes": {"cube": {"box": [1, 1, 0]}}, "bodies": []})", "shapes.cube: "},
+      {R"({"shapes": {"cube": {"box": [1, 1, -1]}}, "bodies": []})",
+       "shapes.cube.box: has a length that is not within"},
+      {R"({"shapes": {"h": {"hull": {"vertices": 9, "semi_axes": [1e300, 1, 1]}}}, "bodies": []})",
+       "shapes.h.hull.semi_axes: has a length"},
+      {R"({"shapes": {"h": {"hull": {"vertices": 9, "semi_axes": [1e-9, 1, 1]}}}, "bodies": []})",
+       "shapes.h.hull.semi_axes: is flatter"},
+      {R"({"shapes": {"m": {"mesh": "torous"}}, "bodies": []})",
+       "shapes.m.mesh: is neither a shape's name nor a file: 'torous'"},
+      {head + R"({"shape": "cube", "name": "x"}, {"shape": "cube", "name": "x"}]})",
+       "bodies[1]: there is another 'x' before it"},
+      {R"({"shapes": {"cube": {"box": [1, 1, 0]}}, "bodies": []})", "shapes.cube.box: "},
       {R"({"shapes": {"m": {"mesh": "nothing.off"}}, "bodies": []})", "shapes.m.mesh: "},
       {R"({"shapes": {"m": {"file": "nothing.off"}}, "bodies": []})", "shapes.m.file: "},
       {head + R"({"shape": "cub"}]})", "bodies[0].shape: there is no shape 'cub'"},
@@ -104,7 +143,8 @@ TEST(SceneCommand, BadFilesAreNamedWithTheElement) {
        "bodies[0]: has an unknown key 'positoin'"},
       {head + R"({"shape": "cube", "position": [0, 1e400, 0]}]})", "bad.json"},
       {head + R"({"shape": "cube", "subscriptions": {"distance": -1}}]})", "bodies[0]: "},
-      {head + R"({"shape": "cube", "subscriptions": {"cpd": true}}]})", "bodies[0]: "},
+      {head + R"({"shape": "cube", "subscriptions": {"cpd": 1}}]})",
+       "bodies[0].subscriptions.cpd: is neither true nor false"},
       {head + R"({"shape": "cube", "motion": {"parent": 0}}]})", "bodies[0].motion.parent: "},
       {head + R"({"shape": "cube"}], "ignore": [[0, 0]]})", "ignore[0]: names one body twice"},
       {head + R"({"shape": "cube"}], "pairs": [{"bodies": [0, 1], "subscriptions": {}}]})",
@@ -120,6 +160,10 @@ TEST(SceneCommand, BadFilesAreNamedWithTheElement) {
   EXPECT_EQ(RunProgram("scene --demo nothing").exit_code, 2);
   EXPECT_EQ(RunProgram("scene " + folder.path("missing.json")).exit_code, 2);
   EXPECT_EQ(RunProgram("scene --demo tori --without nothing").exit_code, 2);
+  EXPECT_EQ(RunProgram("scene " + folder.path("")).exit_code, 2);
+  EXPECT_NE(RunProgram("scene --demo tori --steps -1").exit_code, 0);
+  EXPECT_EQ(RunProgram("scene --demo tori --steps 1 --record " + folder.path("none/x")).exit_code,
+            2);
 }
 
 }  // namespace

@@ -72,10 +72,12 @@ Json HullRain() {
 
 // Gears in a train, their teeth in each other's gaps, the last one pushed out of step.
 Json Gears() {
-  Json scene = {{"comment", "a train of gears; the last turns too fast and collides"},
-                {"shapes", Json::object()},
-                {"bodies", Json::array()},
-                {"steps", 200}};
+  Json scene = {
+      {"comment",
+       "a train of gears; the last turns too fast and collides; distances below 0.05, depths"},
+      {"shapes", Json::object()},
+      {"bodies", Json::array()},
+      {"steps", 200}};
   const std::array<int, 5> teeth = {20, 12, 30, 16, 24};
   double x = 0.0, sense = 1.0, phase = 0.0;
   for (std::size_t i = 0; i < teeth.size(); ++i) {
@@ -88,12 +90,13 @@ Json Gears() {
       phase = std::numbers::pi / teeth[i] * (i % 2 == 1 ? 1.0 : 0.0);
     }
     const double speed = sense * 0.2 / teeth[i] * (i + 1 == teeth.size() ? 1.25 : 1.0);
-    scene["bodies"].push_back({{"name", "gear " + std::to_string(i)},
-                               {"shape", name},
-                               {"position", List(x, 0, 0)},
-                               {"subscriptions", {{"depth", i == 4}}},
-                               {"turn", List(0, 0, phase)},
-                               {"motion", {{"spin", List(0, 0, speed)}}}});
+    scene["bodies"].push_back(
+        {{"name", "gear " + std::to_string(i)},
+         {"shape", name},
+         {"position", List(x, 0, 0)},
+         {"subscriptions", {{"distance", 0.05}, {"depth", i == 4}, {"cpd", i == 4}}},
+         {"turn", List(0, 0, phase)},
+         {"motion", {{"spin", List(0, 0, speed)}}}});
     sense = -sense;
   }
   return scene;
@@ -105,7 +108,10 @@ Json RobotArm() {
     return Json{{"box", List(hx, hy, hz)}, {"at", List(x, y, z)}};
   };
   Json scene = {
-      {"comment", "an arm of three links and a gripper among pillars; distances below 0.3"},
+      {"comment",
+       "an arm of three links and a gripper among pillars; distances below 0.3, depths, and how "
+       "far the "
+       "gripper may go on"},
       {"shapes",
        {{"base",
          {{"compound", {box(0.5, 0.5, 0.25, 0, 0, 0.25), box(0.25, 0.25, 0.5, 0, 0, 1.0)}}}},
@@ -141,6 +147,7 @@ Json RobotArm() {
   add("middle", "link", List(0, 0, 1.8), "upper", List(1, 0, 0), 1.0, 210);
   add("lower", "link", List(0, 0, 1.8), "middle", List(1, 0.3, 0), 1.3, 150);
   add("gripper", "gripper", List(0, 0, 1.9), "lower", List(0, 1, 0), 0.8, 60);
+  scene["bodies"].back()["subscriptions"]["travel"] = {{"direction", List(0, 0, -1)}, {"reach", 2}};
   for (int i = 0; i < 8; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / 8.0;
     scene["bodies"].push_back(
@@ -155,7 +162,7 @@ Json RobotArm() {
 
 // Pairs of linked tori, shaken until the links meet.
 Json Tori() {
-  Json scene = {{"comment", "pairs of linked tori, shaken"},
+  Json scene = {{"comment", "pairs of linked tori, shaken; distances below 0.3, continuous depths"},
                 {"shapes", {{"torus", {{"mesh", "torus"}, {"faces", 800}}}}},
                 {"bodies", Json::array()},
                 {"steps", 200}};
@@ -163,6 +170,7 @@ Json Tori() {
     const double x = 7.0 * (i / 2) + 2.0 * (i % 2);
     Json body = {{"name", "link " + std::to_string(i)},
                  {"shape", "torus"},
+                 {"subscriptions", {{"distance", 0.3}, {"cpd", true}}},
                  {"position", List(x, 0, 0)},
                  {"turn", List(i % 2 == 0 ? 0.0 : 0.5 * std::numbers::pi, 0, 0)},
                  {"motion",

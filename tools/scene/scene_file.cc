@@ -24,6 +24,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int kMaxCount = 1'000'000;
+constexpr double kLeastLength = 1e-90, kLargestLength = 1e90;
 
 // A value of the file and where it stands; what it throws says so.
 class Element {
@@ -86,6 +87,14 @@ class Element {
   Vector3d Vector() const {
     if (!json_.is_array() || json_.size() != 3) Fail("is no list of 3 numbers");
     return {(*this)[0].Number(), (*this)[1].Number(), (*this)[2].Number()};
+  }
+  // Of lengths that bodies may have.
+  Vector3d Lengths() const {
+    const Vector3d lengths = Vector();
+    if (!(lengths.minCoeff() >= kLeastLength && lengths.maxCoeff() <= kLargestLength)) {
+      Fail("has a length that is not within 1e-90 to 1e90");
+    }
+    return lengths;
   }
 
   const Json& json() const { return json_; }
@@ -154,7 +163,7 @@ class Parser {
   ConvexPolyhedron ParseConvex(const Element& shape) {
     if (shape.Has("box")) {
       shape.CheckKeys({"box", "at"});
-      const Vector3d half = shape.At("box").Vector();
+      const Vector3d half = shape.At("box").Lengths();
       const Vector3d at = shape.Has("at") ? shape.At("at").Vector() : Vector3d(Vector3d::Zero());
       std::vector<Vector3d> corners;
       for (int k = 0; k < 8; ++k) {
@@ -171,8 +180,10 @@ class Parser {
       hull.CheckKeys({"vertices", "semi_axes", "seed"});
       const int count = hull.At("vertices").Count(4, 100000);
       const Vector3d axes =
-          hull.Has("semi_axes") ? hull.At("semi_axes").Vector() : Vector3d(1, 1, 1);
-      if (!(axes.minCoeff() > 0.0)) hull.At("semi_axes").Fail("is not positive");
+          hull.Has("semi_axes") ? hull.At("semi_axes").Lengths() : Vector3d(1, 1, 1);
+      if (axes.maxCoeff() > 1e6 * axes.minCoeff()) {
+        hull.At("semi_axes").Fail("is flatter than a millionth");
+      }
       Random random(
           "scene hull",
           hull.Has("seed") ? static_cast<std::uint64_t>(hull.At("seed").Count(0, kMaxCount)) : 1,
@@ -206,7 +217,11 @@ class Parser {
     const int faces = shape.Has("faces") ? shape.At("faces").Count(4, 10'000'000) : 0;
     Shape made = NamedShape(name, faces);
     if (made.faces.empty()) {
-      const TriangleMesh loaded = Named(mesh, [&] { return LoadMesh(PathOf(mesh)); });
+      const std::string path = PathOf(mesh);
+      if (!std::filesystem::exists(path)) {
+        mesh.Fail("is neither a shape's name nor a file: '" + name + "'");
+      }
+      const TriangleMesh loaded = Named(mesh, [&] { return LoadMesh(path); });
       made.vertices.assign(loaded.vertices().begin(), loaded.vertices().end());
       made.faces.assign(loaded.faces().begin(), loaded.faces().end());
     }
@@ -274,6 +289,9 @@ class Parser {
     const std::size_t index = spec_.bodies.size();
     SceneBodySpec body{"body " + std::to_string(index), found->second, {}, {}, {}, {}};
     if (element.Has("name")) body.name = element.At("name").Word();
+    if (numbers_.contains(body.name)) {
+      element.Fail("there is another '" + body.name + "' before it");
+    }
     if (element.Has("position")) body.pose.translation = element.At("position").Vector();
     if (element.Has("turn")) body.pose.rotation = Turn(element.At("turn").Vector());
     if (element.Has("rotation")) {
@@ -293,15 +311,15 @@ class Parser {
     Scene trial;
     const auto added = trial.Add(body.shape, body.pose, body.subscriptions);
     if (!added.ok()) element.Fail(added.status().ToString());
+    numbers_.emplace(body.name, static_cast<int>(index));
     spec_.bodies.push_back(std::move(body));
   }
 
   int BodyIndex(const Element& element) const {
     if (element.json().is_string()) {
       const std::string name = element.Word();
-      for (std::size_t i = 0; i < spec_.bodies.size(); ++i) {
-        if (spec_.bodies[i].name == name) return static_cast<int>(i);
-      }
+      const auto found = numbers_.find(name);
+      if (found != numbers_.end()) return found->second;
       element.Fail("there is no body '" + name + "' before it");
     }
     return element.Count(0, static_cast<int>(spec_.bodies.size()) - 1);
@@ -340,6 +358,7 @@ class Parser {
   Element root_;
   std::filesystem::path folder_;
   std::map<std::string, SceneShape> shapes_;
+  std::map<std::string, int> numbers_;  // of the bodies, by name
   SceneSpec spec_;
 };
 
@@ -355,7 +374,7 @@ double Reflected(double x, double half) {
 
 Json ReadSceneJson(const std::string& path) {
   std::ifstream in(path);
-  if (!in) throw BadInput{path + ": cannot be read"};
+  if (!in || std::filesystem::is_directory(path)) throw BadInput{path + ": cannot be read"};
   try {
     return Json::parse(in);
   } catch (const Json::parse_error& error) {

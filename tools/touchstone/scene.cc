@@ -20,7 +20,7 @@ namespace touchstone {
 namespace {
 
 struct Arguments {
-  std::string file, demo, csv, record, save;
+  std::string file, demo, csv, numbers, record, save;
   std::vector<std::string> without;
   int steps = -1;
   bool check = false, json = false, threads = false;
@@ -98,7 +98,8 @@ std::vector<BodyHandle> Fill(const SceneSpec& spec, const std::vector<WorldPose>
 
 constexpr const char* kCsvHead =
     "step,ms,bodies_moved,pairs,by_rest,by_margin,looked_at,by_box,by_balls,by_guess,queries,"
-    "exact_queries,meshes_apart,meshes_placed,begin,persist,end,distances,depths,travels\n";
+    "exact_queries,meshes_apart,meshes_placed,begin,persist,end,distances,depths,travels,"
+    "continuous_depths\n";
 
 struct Tally {
   long begin = 0, persist = 0, end = 0;
@@ -123,8 +124,53 @@ void WriteCsv(std::ostream& out, int step, double ms, const SceneStep& found) {
                            c.meshes_placed, tally.begin, tally.persist, tally.end}) {
     out << ',' << count;
   }
-  out << ',' << found.distances.size() << ',' << found.depths.size() + found.mesh_depths.size()
-      << ',' << found.travels.size() << '\n';
+  out << ',' << found.distances.size() + found.mesh_distances.size() << ','
+      << found.depths.size() + found.mesh_depths.size() << ','
+      << found.travels.size() + found.mesh_travels.size() << ',' << found.continuous_depths.size()
+      << '\n';
+}
+
+constexpr const char* kNumbersHead =
+    "step,quantity,body_a,part_a,body_b,part_b,value,lower,upper,x,y,z\n";
+
+// A line for each number; x, y, z: the direction of a distance, the translation of a depth, the
+// normal of a travel's contact where it is a mesh's; in the frame of the first part.
+void WriteNumbers(std::ostream& out, int step, const SceneStep& found) {
+  const auto line = [&](const char* quantity, const auto& number, double value, double lower,
+                        double upper, const Eigen::Vector3d& v) {
+    out << step << ',' << quantity << ',' << number.bodies.a.slot << ',' << number.part_a << ','
+        << number.bodies.b.slot << ',' << number.part_b;
+    for (const double x : {value, lower, upper, v[0], v[1], v[2]}) out << ',' << ShortDouble(x);
+    out << '\n';
+  };
+  for (const auto& n : found.distances) {
+    const DistanceResult& r = n.result;
+    line("distance", n, r.distance.value, r.lower, r.upper, r.direction);
+  }
+  for (const auto& n : found.mesh_distances) {
+    const SurfaceDistanceResult& r = n.result;
+    line("distance", n, r.distance, r.lower_bound, r.upper_bound, r.direction);
+  }
+  for (const auto& n : found.depths) {
+    const PenetrationResult& r = n.result;
+    line("depth", n, r.depth.value, r.lower, r.upper, r.translation);
+  }
+  for (const auto& n : found.mesh_depths) {
+    const MeshDepthResult& r = n.result;
+    line("depth", n, r.upper_bound, r.lower_bound, r.upper_bound, r.translation);
+  }
+  for (const auto& n : found.continuous_depths) {
+    const double length = n.result.translation.norm();
+    line("continuous_depth", n, length, length, length, n.result.translation);
+  }
+  for (const auto& n : found.travels) {
+    const BoundedValue& t = n.result.enter.travel;
+    line("travel", n, t.value, t.value - t.error, t.value + t.error, Eigen::Vector3d::Zero());
+  }
+  for (const auto& n : found.mesh_travels) {
+    const SurfaceTravelResult& r = n.result;
+    line("travel", n, r.travel, r.lower_bound, r.upper_bound, r.normal);
+  }
 }
 
 Json PosesJson(const std::vector<WorldPose>& poses) {
@@ -161,9 +207,10 @@ class Runner {
           spec_.recorded_poses.empty() ? arguments.steps : std::min(arguments.steps, spec_.steps);
     }
     if (arguments.check) checker_.emplace(spec_);
-    if (arguments.csv.empty()) return;
-    csv_.open(arguments.csv);
-    if (!csv_) throw BadInput{"--csv: " + arguments.csv + " cannot be written"};
+    Open("--csv", arguments.csv, &csv_);
+    Open("--numbers", arguments.numbers, &numbers_);
+    Open("--record", arguments.record, &record_);
+    if (numbers_.is_open()) numbers_ << kNumbersHead;
   }
 
   int Go() {
@@ -193,6 +240,7 @@ class Runner {
       run_.tally.end += tally.end;
       run_.counters.Add(found.counters);
       if (print_csv || csv_.is_open()) WriteCsv(csv, step, time.count(), found);
+      if (numbers_.is_open()) WriteNumbers(numbers_, step, found);
       Json events = Json::array();
       for (const SceneEvent& event : found.events) events.push_back(Text(event));
       CompareWithRecord(step, events);
@@ -210,6 +258,12 @@ class Runner {
   }
 
  private:
+  static void Open(const char* option, const std::string& path, std::ofstream* out) {
+    if (path.empty()) return;
+    out->open(path);
+    if (!*out) throw BadInput{std::string(option) + ": " + path + " cannot be written"};
+  }
+
   void CompareWithRecord(int step, const Json& events) {
     if (spec_.recorded_events.empty()) return;
     const std::vector<std::string>& recorded = spec_.recorded_events[step - 1];
@@ -222,9 +276,8 @@ class Runner {
 
   void Record(Json poses, Json events) {
     json_["recorded"] = {{"poses", std::move(poses)}, {"events", std::move(events)}};
-    std::ofstream out(arguments_.record);
-    out << json_.dump() << '\n';
-    if (!out) throw BadInput{"--record: " + arguments_.record + " cannot be written"};
+    record_ << json_.dump() << '\n';
+    if (!record_) throw BadInput{"--record: " + arguments_.record + " cannot be written"};
   }
 
   void Report(std::ostream& text) const {
@@ -254,12 +307,19 @@ class Runner {
                      {"mesh_nodes", c.mesh_nodes},
                      {"distances", c.distances},
                      {"depths", c.depths},
+                     {"continuous_depths", c.continuous_depths},
                      {"travels", c.travels},
                      {"numbers_kept", c.numbers_kept}}}};
       if (!spec_.recorded_events.empty()) json["replay_mismatches"] = run_.replay_mismatches;
       if (checker_) {
         json["pairs_checked"] = checker_->pairs_checked();
         json["pairs_judged"] = checker_->pairs_judged();
+        const JudgedNumbers& judged = checker_->numbers().judged();
+        json["numbers_checked"] = checker_->numbers().checked();
+        json["numbers_judged"] = {{"distances", judged.distances},
+                                  {"depths", judged.depths},
+                                  {"continuous_depths", judged.continuous_depths},
+                                  {"travels", judged.travels}};
         json["details"] = checker_->details();
       }
       json["steps"] = run_.steps;
@@ -286,9 +346,15 @@ class Runner {
       table.Row({"replay", std::to_string(run_.replay_mismatches) + " events differ"});
     }
     if (checker_) {
+      const JudgedNumbers& judged = checker_->numbers().judged();
       table.Row({"check", std::to_string(checker_->pairs_checked()) + " pairs, " +
+                              std::to_string(checker_->numbers().checked()) + " numbers, " +
                               std::to_string(checker_->mismatches()) + " mismatches"});
       table.Row({"judge", std::to_string(checker_->pairs_judged()) + " pairs, " +
+                              std::to_string(judged.distances) + " distances, " +
+                              std::to_string(judged.depths) + " depths, " +
+                              std::to_string(judged.continuous_depths) + " continuous depths, " +
+                              std::to_string(judged.travels) + " travels, " +
                               std::to_string(checker_->findings()) + " findings"});
     }
     table.Print(text);
@@ -302,7 +368,7 @@ class Runner {
   SceneSpec spec_;
   Scene scene_;
   std::optional<SceneChecker> checker_;
-  std::ofstream csv_;
+  std::ofstream csv_, numbers_, record_;
   Run run_;
 };
 
@@ -324,8 +390,11 @@ void AddScene(CLI::App& app, int& exit_code) {
   command->add_option("FILE", arguments->file, "a scene as JSON (tools/README.md)");
   command->add_option("--demo", arguments->demo,
                       "instead: box-stack, hull-rain, gears, robot-arm or tori");
-  command->add_option("--steps", arguments->steps, "instead of the scene's own number");
+  command->add_option("--steps", arguments->steps, "instead of the scene's own number")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--csv", arguments->csv, "the table of the steps into this file");
+  command->add_option("--numbers", arguments->numbers,
+                      "distances, depths and travels of all steps into this file, as CSV");
   command->add_option("--without", arguments->without,
                       "a rule to switch off: broad_phase, tree, margins, rest, balls, guesses, "
                       "lazy_meshes, verdict_alone, doubles_first, all");
