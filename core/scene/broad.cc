@@ -165,11 +165,7 @@ void Scene::Data::Wire(int pair) {
                         (wanted.any() && !(p.part->is_convex() && q.part->is_convex()));
   const bool is_new = state.numbers < 0;
   if (wanted.any() && is_new) state.numbers = numbers.Take();
-  if (!wanted.any() && state.numbers >= 0) {
-    numbers[state.numbers].p = numbers[state.numbers].q = -1;
-    numbers.Return(state.numbers);
-    state.numbers = -1;
-  }
+  if (!wanted.any()) ReturnNumbers(&state);
   if (state.numbers >= 0) {
     PairNumbers& kept = numbers[state.numbers];
     kept.p = pairs.p(pair);
@@ -192,11 +188,17 @@ void Scene::Data::RemovePair(int pair) {
   PairState& state = pairs.state(pair);
   if (state.in_contact) contacts.Change(ContactOf(pair, Verdict::kSeparate));
   if (state.mesh >= 0) mesh_states.Return(state.mesh);
-  if (state.numbers >= 0) {
-    numbers[state.numbers].p = numbers[state.numbers].q = -1;
-    numbers.Return(state.numbers);
-  }
+  ReturnNumbers(&state);
   pairs.RemoveAt(pair);
+}
+
+void Scene::Data::ReturnNumbers(PairState* state) {
+  if (state->numbers < 0) return;
+  PairNumbers& kept = numbers[state->numbers];
+  kept.p = kept.q = -1;
+  kept.continuous_depth.reset();
+  numbers.Return(state->numbers);
+  state->numbers = -1;
 }
 
 void Scene::Data::Rewire() {

@@ -87,21 +87,15 @@ void FindMeshDepth(const PlacedPart& p, const PlacedPart& q, const SceneRules& r
 
 void FindContinuousDepth(const PlacedPart& p, const PlacedPart& q, Verdict verdict,
                          PairNumbers* numbers, SceneCounters* counters) {
-  const bool has_begun = numbers->found.continuous_depth.has_value();
+  const bool goes_on = numbers->found.continuous_depth.has_value();
   numbers->found.continuous_depth.reset();
-  if (verdict != Verdict::kOverlap) return;
-  std::optional<ContinuousDepthTrack>& track = numbers->track;
-  if (!track || track->p != p.part || track->q != q.part) {
-    track.emplace(*p.part, *q.part);
-  } else if (!has_begun) {
-    track->solver.Forget();
-    track->branches_before = track->branch;
+  if (verdict != Verdict::kOverlap) {
+    numbers->continuous_depth.reset();
+    return;
   }
+  if (!goes_on) numbers->continuous_depth.emplace(p.part->mesh(), q.part->mesh());
   ++counters->continuous_depths;
-  ContinuousDepthResult result = track->solver.Update(PoseOf(p, q));
-  track->branch = result.branch;
-  result.branch -= track->branches_before;
-  numbers->found.continuous_depth = result;
+  numbers->found.continuous_depth = numbers->continuous_depth->Update(PoseOf(p, q));
 }
 
 void FindTravels(const PlacedPart& p, const PlacedPart& q, PairNumbers* numbers,

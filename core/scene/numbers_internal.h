@@ -20,17 +20,6 @@
 
 namespace touchstone::internal {
 
-// The continuous depth of a pair. No guess: it follows the motion, so no rule does without it.
-struct ContinuousDepthTrack {
-  ContinuousDepthTrack(const ScenePart& part_p, const ScenePart& part_q)
-      : p(&part_p), q(&part_q), solver(part_p.mesh(), part_q.mesh()) {}
-
-  const ScenePart *p, *q;
-  ContinuousPenetrationDepth solver;
-  int branch = 0;           // of the last answer, as the solver counts
-  int branches_before = 0;  // when the overlap began
-};
-
 // What is wanted of one pair, its caches, and what the last step found.
 struct PairNumbers {
   int p = -1, q = -1;  // parts; -1: not in use
@@ -47,9 +36,10 @@ struct PairNumbers {
 
   DistanceCache distance_cache;
   PenetrationCache penetration_cache;
-  // Made when first needed.
-  std::optional<MeshDepthCache> mesh_depth_cache;
-  std::optional<ContinuousDepthTrack> track;
+  std::optional<MeshDepthCache> mesh_depth_cache;  // made when first needed
+  // While they overlap. No guess: it follows the motion, so no rule does without it, and it begins
+  // afresh, so that no other pair's past is in it.
+  std::optional<ContinuousPenetrationDepth> continuous_depth;
   // The distance stays above the margin while the parts' travels add up to less than this.
   double distance_limit;
   bool is_fresh = true;  // nothing was computed yet

@@ -112,6 +112,7 @@ struct Scene::Data {
   int AddPair(int part_a, int part_b, bool is_pinned);
   void Wire(int pair);
   void RemovePair(int pair);
+  void ReturnNumbers(internal::PairState* state);
 
   // looks.cc
   void Look(SceneCounters* counters);
