@@ -377,7 +377,7 @@ TEST(Rules, DistancesAndTravelsOfMeshes) {
     travels += found.mesh_travels.size();
   }
   EXPECT_GT(distances, 300u);
-  EXPECT_GT(travels, 60u);  // measured 94
+  EXPECT_GT(travels, 60u);                                                  // measured 94
   EXPECT_GT(worlds.totals(1).numbers_kept, worlds.totals(5).numbers_kept);  // by margins
 }
 
