@@ -60,6 +60,22 @@ class FacetTriage {
     }
   }
 
+  // Whether all corners of facet g, but one that lies in f's plane by its name, lie strictly on one
+  // side of that plane; false if doubles cannot tell.
+  bool IsClearBut(int f, int g, int corner, std::span<const int> corners_of_g) const {
+    const Entry& plane = entries_[f];
+    const auto& x = entries_[g].corners;
+    bool is_above = true, is_below = true;
+    for (int k = 0; k < 4; ++k) {
+      if (corners_of_g[k] == corner) continue;
+      const double height = plane.normal[0] * x[0][k] + plane.normal[1] * x[1][k] +
+                            plane.normal[2] * x[2][k] - plane.offset;
+      is_above &= height > plane.bound;
+      is_below &= height < -plane.bound;
+    }
+    return is_above || is_below;
+  }
+
   // Whether all corners of facet g lie strictly on one side of f's plane; false if doubles cannot
   // tell.
   bool IsClear(int f, int g) const {
@@ -157,7 +173,9 @@ class Arranger {
     });
     // In a fixed order, however they were found: facets come sorted.
     std::sort(near.begin(), near.end());
-    for (const auto& [f, g] : near) ClassifyPair(f, g);
+    for (const auto& [f, g] : near) {
+      if (!MeetInACorner(triage, f, g)) ClassifyPair(f, g);
+    }
   }
 
   // Pairs with an active facet, whose boxes meet: each active one against all, in lanes. Few are
@@ -173,6 +191,53 @@ class Arranger {
         if (g != f && (!IsActive(g) || f < g)) near->push_back(std::minmax(f, g));
       }
     }
+  }
+
+  // Whether the facets share one corner and certainly nothing else: neither cuts the other then,
+  // and a plane may have two names. Round a vertex of M many facets do.
+  bool MeetInACorner(const FacetTriage& triage, int f, int g) const {
+    const ArrangedFacet &x = facet(f), &y = facet(g);
+    int place_x = -1, place_y = -1;
+    for (int k = 0; k < x.count; ++k) {
+      for (int l = 0; l < y.count; ++l) {
+        if (x.corners[k] != y.corners[l]) continue;
+        if (place_x >= 0) return false;
+        place_x = k;
+        place_y = l;
+      }
+    }
+    if (place_x < 0) return false;
+    const int corner = x.corners[place_x];
+    return triage.IsClearBut(f, g, corner, y.corners) ||
+           triage.IsClearBut(g, f, corner, x.corners) || PartAtCorner(x, place_x, y) ||
+           PartAtCorner(y, place_y, x);
+  }
+
+  // Whether the plane through an edge of x at a corner and parallel to a coordinate axis parts what
+  // else there is of x from all of y but that corner, as far as doubles can tell.
+  bool PartAtCorner(const ArrangedFacet& x, int place, const ArrangedFacet& y) const {
+    int axis = 0;
+    geometry_.plane(x.plane).normal.cwiseAbs().maxCoeff(&axis);
+    const int corner = x.corners[place];
+    for (const int step : {1, x.count - 1}) {
+      const int end = x.corners[(place + step) % x.count];
+      // The side that all but the two lie on; 0: not one side, or doubles cannot tell.
+      const auto side_of = [&](const ArrangedFacet& other) {
+        int side = 0;
+        for (int k = 0; k < other.count; ++k) {
+          const int point = other.corners[k];
+          if (point == corner || (&other == &x && point == end)) continue;
+          const int turn = SumGeometry::TriageTurn(geometry_.point(corner), geometry_.point(end),
+                                                   geometry_.point(point), axis);
+          if (turn == 0 || turn == -side) return 0;
+          side = turn;
+        }
+        return side;
+      };
+      const int side = side_of(x);
+      if (side != 0 && side_of(y) == -side) return true;
+    }
+    return false;
   }
 
   void ClassifyPair(int f, int g) {
@@ -395,6 +460,7 @@ class Arranger {
 
   void MeetWalls(const Group& group, const Wall& s, const Wall& t) {
     const std::array<int, 2> ends_s = Ends(s), ends_t = Ends(t);
+    if (GoOnFromAnEnd(ends_s, ends_t)) return;
     const auto sides = [&](const std::array<int, 2>& points, const Wall& wall,
                            const std::array<int, 2>& ends) {
       std::array<int, 2> result;
@@ -417,6 +483,30 @@ class Arranger {
       cuts_.push_back({s.segment, point});
       cuts_.push_back({t.segment, point});
     }
+  }
+
+  // Whether two segments have one end in common and certainly lie on either side of it along some
+  // axis: as the traces of two neighbouring facets do, on lines that are nearly one.
+  bool GoOnFromAnEnd(const std::array<int, 2>& s, const std::array<int, 2>& t) const {
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        if (s[i] != t[j]) continue;
+        const SumPoint &at = geometry_.point(s[i]), &u = geometry_.point(s[1 - i]),
+                       &v = geometry_.point(t[1 - j]);
+        // 1.01: the difference's rounding.
+        const double least_u = 1.01 * (u.error + at.error);
+        const double least_v = 1.01 * (v.error + at.error);
+        for (int axis = 0; axis < 3; ++axis) {
+          const double to_u = u.rounded[axis] - at.rounded[axis];
+          const double to_v = v.rounded[axis] - at.rounded[axis];
+          if ((to_u > least_u && to_v < -least_v) || (to_u < -least_u && to_v > least_v)) {
+            return true;
+          }
+        }
+        return false;
+      }
+    }
+    return false;
   }
 
   std::array<int, 2> Ends(const Wall& wall) const { return result_.segments[wall.segment].ends; }

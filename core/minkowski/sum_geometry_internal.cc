@@ -307,6 +307,13 @@ int SumGeometry::Compare(int x, int y, int axis) {
   const double difference = p.rounded[axis] - q.rounded[axis];
   const int sign = SignOf(difference, 1.01 * (p.error + q.error + kUnit * std::abs(difference)));
   if (sign != 0) return sign;
+  if (p.form == SumPointForm::kVertex && q.form == SumPointForm::kVertex &&
+      p.parts[1] == q.parts[1]) {
+    // A's coordinates are the doubles given.
+    const TriangleMesh& a = pair_.a().mesh;
+    const double u = a.vertex(p.parts[0])[axis], v = a.vertex(q.parts[0])[axis];
+    return u > v ? 1 : u < v ? -1 : 0;
+  }
   ++exact_count_;
   const ExactPoint &a = Exact(x), &b = Exact(y);
   return (a.coordinates[axis] * b.denominator - b.coordinates[axis] * a.denominator).sign();
@@ -330,10 +337,24 @@ int SumGeometry::TriageTurn(const SumPoint& x, const SumPoint& y, const SumPoint
   return SignOf(left - right, error);
 }
 
+// By their names: the ends of an edge of M, and points on it.
+bool SumGeometry::LieOnOneEdge(const std::array<int, 3>& points) const {
+  const auto on_edge = std::find_if(points.begin(), points.end(), [&](int x) {
+    return points_[x].form == SumPointForm::kOnEdge;
+  });
+  if (on_edge == points.end()) return false;
+  const auto& [u, v, plane] = points_[*on_edge].parts;
+  return std::all_of(points.begin(), points.end(), [&, u = u, v = v](int x) {
+    const SumPoint& own = points_[x];
+    return x == u || x == v ||
+           (own.form == SumPointForm::kOnEdge && own.parts[0] == u && own.parts[1] == v);
+  });
+}
+
 int SumGeometry::Turn(int x, int y, int z, int axis) {
   if (x == y || y == z || z == x) return 0;
   const int sign = TriageTurn(points_[x], points_[y], points_[z], axis);
-  if (sign != 0) return sign;
+  if (sign != 0 || LieOnOneEdge({x, y, z})) return sign;
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   ++exact_count_;
   const ExactPoint &a = Exact(x), &b = Exact(y), &c = Exact(z);

@@ -140,6 +140,7 @@ class SumGeometry {
   void RoundOfPlanes(SumPoint* point) const;
   static Estimate Height(const SumPoint& x, const SumPlane& plane);
   bool LiesOnByName(const SumPoint& x, int plane) const;
+  bool LieOnOneEdge(const std::array<int, 3>& points) const;
   std::optional<int> SideOfNeighbor(const SumPoint& x, int plane) const;
   bool IsVertexOfFlatFacet(const SumPoint& x, const SumFacet& facet) const;
   const ExactPlane& ExactPlaneOf(int plane);

@@ -9,6 +9,7 @@ error-gaps.svg             share of wrong verdicts against the size of the gap
 boundary-growth.svg        time of the whole Minkowski boundary against facets (`bench boundary`)
 error-values.svg           time against the relative error of exit travel, distance and depth
 scene.svg                  time a step against the number of bodies (`touchstone bench scene --svg`)
+minkowski.svg              time of local sums against rotation (`touchstone bench minkowski --svg`)
 """
 import collections
 import csv
@@ -337,6 +338,37 @@ def boundary_growth(directory):
     save(figure, directory, "boundary-growth.svg")
 
 
+def minkowski(directory):
+    rows = [row for row in read(directory, "minkowski.csv") if "-depth" not in row["scene"]]
+    if not rows:
+        return
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    figure, axes = plt.subplots(1, len(scenes), figsize=(10, 3.6), squeeze=False, sharey=True)
+    colours = {"gap-filling": "#d62728", "sphere-hierarchy": "#9467bd", "brute-force": "#7f7f7f",
+               "full": "black"}
+    handles = {}
+    for axis, name in zip(axes.flat, scenes):
+        curves = collections.defaultdict(list)
+        for row in rows:
+            if row["scene"] == name:
+                curves[row["builder"]].append((float(row["rotation_deg"]),
+                                               float(row["median_ms"])))
+        for builder, points in curves.items():
+            (handles[builder],) = axis.plot(*zip(*sorted(points)), "-o",
+                                            color=colours.get(builder, "black"), markersize=3)
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.grid(True, which="major", color="#dddddd", linewidth=0.5)
+        axis.set_title(name, fontsize=10)
+        axis.set_xlabel("degrees a frame", fontsize=8)
+        axis.tick_params(labelsize=8)
+    axes[0, 0].set_ylabel("ms an update", fontsize=8)
+    figure.suptitle("Local Minkowski sums: time of an update against rotation", fontsize=11)
+    figure.tight_layout(rect=(0, 0.1, 1, 1))
+    legend_below(figure, handles.values(), handles.keys(), 4)
+    save(figure, directory, "minkowski.svg")
+
+
 def main():
     if len(sys.argv) != 2 or not os.path.isdir(sys.argv[1]):
         sys.exit(__doc__)
@@ -353,6 +385,7 @@ def main():
     error_values(directory)
     scene(directory)
     boundary_growth(directory)
+    minkowski(directory)
 
 
 if __name__ == "__main__":

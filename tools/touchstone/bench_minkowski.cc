@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -20,7 +21,7 @@ struct MinkowskiArguments {
   bool quick = false, json = false;
   int frames = 0, random = 0;
   std::uint64_t seed = 1;
-  std::string figures;
+  std::string figures, svg;
 };
 
 Json ToJson(const std::vector<MinkowskiBenchRow>& rows) {
@@ -34,6 +35,15 @@ Json ToJson(const std::vector<MinkowskiBenchRow>& rows) {
                     {"mismatches", row.mismatches}});
   }
   return json;
+}
+
+void WriteCsv(const std::vector<MinkowskiBenchRow>& rows, const std::string& path) {
+  std::ofstream out(path);
+  out << "scene,builder,rotation_deg,median_ms,facets,mismatches\n";
+  for (const MinkowskiBenchRow& row : rows) {
+    out << row.scene << ',' << ToString(row.builder) << ',' << ShortDouble(row.rotation_deg) << ','
+        << ShortDouble(row.median_ms) << ',' << row.facets << ',' << row.mismatches << '\n';
+  }
 }
 
 // A builder a column; rows come four to a scene and rotation.
@@ -84,8 +94,13 @@ int RunMinkowskiBenchCommand(const MinkowskiArguments& arguments) {
     PrepareFolder(arguments.figures);
     options.figure_folder = arguments.figures;
   }
+  if (!arguments.svg.empty()) PrepareFolder(arguments.svg);
   if (!arguments.json) options.progress = ShowProgress;
   const std::vector<MinkowskiBenchRow> rows = RunMinkowskiBench(options);
+  if (!arguments.svg.empty()) {
+    WriteCsv(rows, arguments.svg + "/minkowski.csv");
+    PlotFigures(arguments.svg);
+  }
   int mismatches = 0;
   for (const MinkowskiBenchRow& row : rows) mismatches += row.mismatches;
   if (arguments.json) {
@@ -109,6 +124,8 @@ void AddBenchMinkowski(CLI::App& bench, int& exit_code) {
   command->add_option("--frames", arguments->frames, "so many for the two fast builders");
   command->add_option("--figures", arguments->figures,
                       "folder for the meshes of Figure 12, full and local, as OFF files");
+  command->add_option("--svg", arguments->svg,
+                      "folder for minkowski.csv and its plot against rotation, minkowski.svg");
   command->add_option("--random", arguments->random,
                       "no timing: compare the builders on so many random balls and poses");
   command->add_option("--seed", arguments->seed, "of --random")->capture_default_str();
