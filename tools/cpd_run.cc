@@ -209,8 +209,9 @@ PremiseRow MeasurePremise(const PaperScene& scene, int moments, int frames) {
       all.ms.push_back(kDegrees * CornerAngle(surface, t));
     }
   }
+  ContinuousPenetrationDepth solver(a, b, {.keep_patch = false});
   for (int i = 0; i < frames; ++i) {
-    ContinuousPenetrationDepth solver(a, b, {.keep_patch = false});
+    solver.Forget();
     const ContinuousDepthResult result = solver.Update(scene.PoseAt((i + 0.5) / frames));
     if (result.status != ContinuousDepthStatus::kFound) continue;
     at_solutions.ms.push_back(kDegrees * result.corner_angle);

@@ -54,8 +54,9 @@ TEST(CpdCommand, BenchRows) {
 TEST(CpdCommand, PremiseOfTheorem3) {
   const ProgramRun run = RunProgram("cpd --premise --scene cone-axes --json");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
-  ASSERT_EQ(run.json().size(), 1u);
-  const auto& row = run.json()[0];
+  const nlohmann::json json = run.json();
+  ASSERT_EQ(json.size(), 1u);
+  const nlohmann::json& row = json[0];
   EXPECT_GT(row["triangles"].get<int>(), 1000);
   EXPECT_GT(row["solutions"].get<int>(), 10);
   EXPECT_GT(row["share_above_10"].get<double>(), 0.0);
@@ -65,8 +66,9 @@ TEST(CpdCommand, PremiseOfTheorem3) {
 TEST(CpdCommand, VerifyMeshDepths) {
   const ProgramRun run = RunProgram("verify --mesh-depth --count 64 --seed 5 --json");
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  const nlohmann::json json = run.json();
   int placements = 0, wrong = 0;
-  for (const auto& row : run.json()["results"]) {
+  for (const nlohmann::json& row : json["results"]) {
     placements += row["placements"].get<int>();
     wrong += row["wrong"].get<int>();
     EXPECT_EQ(row["certain"], row["overlapping"]) << row;
