@@ -106,6 +106,50 @@ TEST_P(OnRanks, TheTotalsAreThoseOfOneProcess) {
 }
 INSTANTIATE_TEST_SUITE_P(Few, OnRanks, testing::Values(2, 4));
 
+// Kills rank 2 of the job whose command line names `out`; the worker that it has forked goes with
+// it.
+std::string KillRankTwo(const std::string& out) {
+  const std::string is_rank_two = "xF OMPI_COMM_WORLD_RANK=2 ";
+  return "for e in $(grep -lz" + is_rank_two + "/proc/[0-9]*/environ 2>/dev/null); do " +
+         "  d=${e%/environ}; grep -qzxF -e '" + out + "' $d/cmdline || continue; " +
+         "  up=$(sed -n 's/^PPid:[^0-9]*//p' $d/status); " + "  grep -qz" + is_rank_two +
+         "/proc/$up/environ || { kill -KILL ${d#/proc/} && echo killed; }; done";
+}
+
+// By default Open MPI ends the job with the rank; with --enable-recovery the others do its work.
+// Either way the totals at the end are those of one process.
+TEST(FuzzCommand, ALostRankLosesNothing) {
+  const std::string mpiexec = TOUCHSTONE_MPIEXEC;
+  if (mpiexec.empty()) GTEST_SKIP() << "configured without MPI";
+  const TemporaryFolder folder("fuzz");
+  const std::string command =
+      "fuzz --suites grid,prisms,tetrahedra --engines portal,phased --count 19200 --seed 5 --json "
+      "--threads 1 ";
+  const ProgramRun whole = RunProgram(command + "--out " + folder.path("whole"));
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const std::string out = folder.path("ranks");
+  for (const std::string option : {"", "--enable-recovery "}) {
+    const std::string launch = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " +
+                               mpiexec + " --oversubscribe " + option + "-n 4 " +
+                               TOUCHSTONE_PROGRAM + ' ' + command + "--silence-seconds 5 --out " +
+                               out + (option.empty() ? "" : "-recovered");
+    const std::string target = out + (option.empty() ? "" : "-recovered");
+    // Once batches are handed out.
+    const std::string script = "(" + launch + " > " + folder.path("json") + " 2> " +
+                               folder.path("err") + "; echo $? > " + folder.path("code") +
+                               ") & for i in $(seq 300); do [ -s " + target +
+                               "/campaign.sqlite ] && break; sleep 0.1; done; sleep 0.3; " +
+                               KillRankTwo(target) + " > " + folder.path("kills") + "; wait";
+    EXPECT_EQ(std::system(script.c_str()), 0);
+    EXPECT_THAT(folder.Read("kills"), HasSubstr("killed"));
+    EXPECT_EQ(folder.Read("code") == "0\n", !option.empty()) << folder.Read("err");
+    if (!option.empty()) {
+      EXPECT_EQ(nlohmann::json::parse(folder.Read("json"))["end"], "complete");
+    }
+    EXPECT_TRUE(Totals(RunProgram(command + "--out " + target)) == Totals(whole)) << option;
+  }
+}
+
 // What other engines get wrong becomes a small case that shows the same.
 TEST(FuzzCommand, FindingsAreShrunkToCasesThatReplay) {
   const TemporaryFolder folder("fuzz");
