@@ -133,14 +133,18 @@ class Query {
 
   Verdict Run() {
     const PlacedMeshPair& pair = placed_.pair();
+    // Faces that cross settle it: they are looked for first, and fractions come last.
+    std::vector<std::pair<int, int>> unsettled;
     for (const auto& [f, g] :
          NearFaces(pair.tree_a(), pair.tree_b(), placed_.offset(), 4.0 * placed_.error())) {
       const Meeting meeting = Meet(f, g);
       if (meeting == Meeting::kCross) return Verdict::kOverlap;
-      if (meeting == Meeting::kShare) {
-        met_[0][f].push_back(g);
-        met_[1][g].push_back(f);
-      }
+      if (meeting == Meeting::kMayShare) unsettled.emplace_back(f, g);
+    }
+    for (const auto& [f, g] : unsettled) {
+      if (!Share(placed_.Triangle(Body::kA, f), placed_.Triangle(Body::kB, g))) continue;
+      met_[0][f].push_back(g);
+      met_[1][g].push_back(f);
     }
     for (const Body body : {Body::kA, Body::kB}) {
       if (SomePieceIsInside(body) || SomeUntouchedComponentIsInside(body)) return Verdict::kOverlap;
@@ -149,7 +153,7 @@ class Query {
   }
 
  private:
-  enum class Meeting { kNone, kShare, kCross };
+  enum class Meeting { kNone, kMayShare, kCross };
 
   const std::map<int, std::vector<int>>& met(Body body) const {
     return met_[body == Body::kA ? 0 : 1];
@@ -163,9 +167,7 @@ class Query {
     if (OnOneSide(of_u)) return Meeting::kNone;
     for (int k = 0; k < 3; ++k) of_t[k] = placed_.Side(u[0], u[1], u[2], t[k]);
     if (OnOneSide(of_t)) return Meeting::kNone;
-    if (Pierces(t, u, of_u) || Pierces(u, t, of_t)) return Meeting::kCross;
-    return Share(placed_.Triangle(Body::kA, f), placed_.Triangle(Body::kB, g)) ? Meeting::kShare
-                                                                               : Meeting::kNone;
+    return Pierces(t, u, of_u) || Pierces(u, t, of_t) ? Meeting::kCross : Meeting::kMayShare;
   }
 
   // Whether a plane strictly between the triangles is found in doubles, of those along a side of
@@ -257,7 +259,11 @@ class Query {
           cuts.insert(cuts.end(), sides.begin(), sides.end());
         } else {
           const std::optional<RationalSegment> cut = t.CutFrom(u);
-          if (cut && cut->first != cut->second) cuts.push_back(*cut);
+          if (!cut) continue;
+          // A point alone is cut through, lest a sample be just there.
+          const bool is_point = cut->first == cut->second;
+          const bool is_first_corner = cut->first == t.corners()[0];
+          cuts.emplace_back(cut->first, !is_point ? cut->second : t.corners()[is_first_corner]);
         }
       }
       for (const RationalTriangle::Piece& piece : t.Pieces(cuts)) {
@@ -293,12 +299,17 @@ class Query {
   bool IsInSolid(Body solid, const RationalPoint& x) const {
     const Vector3d at = placed_.Double(x);
     const double size = 4.0 * (placed_.pair().size() + MaxAbs(placed_.offset()));
-    for (int attempt = 1;; ++attempt) {
-      // On a curve that meets each plane in two points at most.
-      const RationalPoint direction = {mpq_class(1), mpq_class(attempt, 1 << 20),
-                                       mpq_class(attempt * attempt, 1 << 20)};
+    // x = numerators / denominator: signs are those of integers.
+    Integer denominator = 1;
+    for (const mpq_class& value : x) denominator = lcm(denominator, value.get_den());
+    IntegerVector numerators;
+    for (int i = 0; i < 3; ++i) numerators[i] = x[i].get_num() * (denominator / x[i].get_den());
+    const int most_attempts = 6 * placed_.mesh(solid).face_count() + 1;
+    for (int attempt = 1; attempt <= most_attempts; ++attempt) {
+      // On a curve that meets each plane in two points at most; times 2^20.
+      const IntegerVector direction = {1 << 20, attempt, attempt * attempt};
+      const Vector3d along(1.0, attempt * 0x1p-20, attempt * attempt * 0x1p-20);
       const double drift = size * attempt * attempt * 0x1p-20 + 4.0 * placed_.error();
-      const Vector3d along(1.0, direction[1].get_d(), direction[2].get_d());  // exactly
       bool inside = false, is_clear = true;
       for (int f = 0; f < placed_.mesh(solid).face_count() && is_clear; ++f) {
         if (!IsNearRay(solid, f, at, drift)) continue;
@@ -307,19 +318,26 @@ class Query {
           inside ^= meeting == RayMeeting::kCrosses;
           continue;
         }
-        const RationalTriangle t = placed_.Triangle(solid, f);
-        const auto& [a, b, c] = t.corners();
-        const RationalPoint u = a - x, v = b - x, w = c - x;
-        const int s[3] = {sgn(Dot(direction, Cross(u, v))), sgn(Dot(direction, Cross(v, w))),
-                          sgn(Dot(direction, Cross(w, u)))};
-        const int least = std::min({s[0], s[1], s[2]}), greatest = std::max({s[0], s[1], s[2]});
+        const Corners corners = placed_.corners(solid, f);
+        IntegerVector from_x[3];
+        for (int k = 0; k < 3; ++k) {
+          from_x[k] = denominator * placed_.Exact(corners[k]) - numerators;
+        }
+        int least = 1, greatest = -1;
+        for (int k = 0; k < 3; ++k) {
+          const int side = DotSign(direction, Cross(from_x[k], from_x[(k + 1) % 3]));
+          least = std::min(least, side);
+          greatest = std::max(greatest, side);
+        }
         if (least < 0 && greatest > 0) continue;
         is_clear = least != 0 && greatest != 0;
         // The line passes through; ahead iff the plane is met at a positive multiple.
-        inside ^= sgn(Dot(t.normal(), u)) * sgn(Dot(t.normal(), direction)) > 0;
+        inside ^= sgn(Determinant(from_x[0], from_x[1], from_x[2])) * (least + greatest) > 0;
       }
       if (is_clear) return inside;
     }
+    // Each plane through x and an edge holds two of the directions at most, so x is on an edge.
+    return false;
   }
 
   enum class RayMeeting { kMisses, kCrosses, kUnsure };
@@ -334,25 +352,25 @@ class Query {
     const double e = 2.0 * placed_.error(), unit = 60.0 * 0x1p-52;
     const double size[3] = {MaxAbs(from_x[0]) + e, MaxAbs(from_x[1]) + e, MaxAbs(from_x[2]) + e};
     const double l = MaxAbs(along);
-    int least = 1, greatest = -1;
+    bool some_left = false, some_right = false, some_unsure = false;
     for (int k = 0; k < 3; ++k) {
       const int next = (k + 1) % 3;
       const double side = Triple(along, from_x[k], from_x[next]);
       const double bound =
           1.1 * l * (6.0 * e * (size[k] + size[next]) + unit * size[k] * size[next]) + 1e-320;
-      const int sign = side > bound ? 1 : side < -bound ? -1 : 0;
-      if (sign == 0) return RayMeeting::kUnsure;
-      least = std::min(least, sign);
-      greatest = std::max(greatest, sign);
+      some_left |= side > bound;
+      some_right |= side < -bound;
+      some_unsure |= !(std::abs(side) > bound);
     }
-    if (least != greatest) return RayMeeting::kMisses;
+    if (some_left && some_right) return RayMeeting::kMisses;
+    if (some_unsure) return RayMeeting::kUnsure;
     const double height = Triple(from_x[0], from_x[1], from_x[2]);
     const double bound =
         1.1 * (6.0 * e * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]) +
                unit * size[0] * size[1] * size[2]) +
         1e-320;
     if (!(std::abs(height) > bound)) return RayMeeting::kUnsure;
-    return (height > 0.0) == (least > 0) ? RayMeeting::kCrosses : RayMeeting::kMisses;
+    return (height > 0.0) == some_left ? RayMeeting::kCrosses : RayMeeting::kMisses;
   }
 
   // Whether the face's box comes within `drift` of the ray from `at` along x.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "touchstone/core/minkowski/boundary.h"
+#include "touchstone/exact/sum_cells.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tools/shapes/shapes.h"
 
@@ -75,6 +76,55 @@ TEST(JudgeMinkowski, SoundBoundariesPass) {
   EXPECT_THAT(Texts(Judged(HollowBox(), Box({0, 0, 0}, {2, 1.5, 1})).Judge(kEverything)),
               IsEmpty());
   EXPECT_THAT(Texts(Judged(HollowBox(), Cube(0.5)).Judge(kEverything)), IsEmpty());
+}
+
+double Volume(const SumBoundary& sum) {
+  double volume = 0.0;
+  for (const auto& [a, b, c] : sum.triangles) {
+    volume += sum.vertices[a].dot(sum.vertices[b].cross(sum.vertices[c])) / 6.0;
+  }
+  return volume;
+}
+
+mpq_class ExactVolume(const TriangleMesh& a, const TriangleMesh& b, const RelativePose& pose) {
+  const PlacedMeshPair pair(a, b, pose);
+  const ExactSum sum(pair);
+  return VolumeOf(sum, FindSumCells(sum, true));
+}
+
+// Volumes by hand; by the cells, in fractions, which know nothing of the surface; and of the
+// surface.
+TEST(JudgeMinkowski, VolumesAreTheExactOnes) {
+  struct Sum {
+    Shape a, b;
+    mpq_class by_hand;
+  };
+  const std::vector<Sum> sums = {
+      {Box({0, 0, 0}, {1, 2, 3}), Box({0, 0, 0}, {2, 1, 1}), 36},
+      {UShape(), Box({0, 0, 0}, {0.5, 1, 4}), 47},  // 3.5 x 2 x 7 less 0.5 x 2 x 2
+      {HollowBox(), Cube(0.5), mpq_class(723, 8)},  // 4.5 x 4.5 x 4.5 less 1.5 x 1 x 0.5
+  };
+  for (const Sum& sum : sums) {
+    const TriangleMesh a = MustBuild(sum.a), b = MustBuild(sum.b);
+    EXPECT_EQ(ExactVolume(a, b, {}), sum.by_hand);
+    EXPECT_NEAR(Volume(Judged(sum.a, sum.b).boundary), sum.by_hand.get_d(), 1e-10);
+  }
+}
+
+// In general position; and with the bodies swapped, exactly the same. Here a vertex touches a face
+// in the middle of the piece that membership looks at: rays from there had no end.
+TEST(JudgeMinkowski, VolumesInGeneralPosition) {
+  Shape slanted;
+  slanted.vertices = {{0, 0, 0}, {0.75, 0.25, 0}, {0.25, 1, 0.25}, {0.25, 0.5, 1.25}};
+  slanted.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  for (const Shape& shape : {Cube(1), LShape()}) {
+    const Judged judged(shape, slanted), swapped(slanted, shape);
+    const mpq_class exact = ExactVolume(judged.a, judged.b, judged.pose);
+    EXPECT_EQ(ExactVolume(swapped.a, swapped.b, swapped.pose), exact);
+    // Coordinates of at most ten, each within 1e-14, on a surface below a thousand.
+    EXPECT_NEAR(Volume(judged.boundary), exact.get_d(), 1e-10);
+    EXPECT_NEAR(Volume(swapped.boundary), exact.get_d(), 1e-10);
+  }
 }
 
 // What is planted, and what must be said of it. The judge gets no more than it needs.

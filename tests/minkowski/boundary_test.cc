@@ -6,8 +6,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "touchstone/core/mesh/membership.h"
@@ -56,7 +59,37 @@ double WindingNumber(const SumBoundary& sum, const Vector3d& x) {
   return angle / (4.0 * std::numbers::pi);
 }
 
+// What each component is counted to have, and which triangles it has, counted anew: triangles hang
+// together over edges.
+void ExpectCountsOfComponents(const SumBoundary& sum) {
+  std::map<std::pair<int, int>, std::set<int>> components_of_edge;
+  std::vector<std::set<int>> vertices(sum.components.size());
+  std::vector<int> edges(sum.components.size(), 0), triangles(sum.components.size(), 0);
+  for (std::size_t t = 0; t < sum.triangles.size(); ++t) {
+    const int component = sum.component_of_triangle[t];
+    ASSERT_LT(component, std::ssize(sum.components));
+    ++triangles[component];
+    for (int k = 0; k < 3; ++k) {
+      const int u = sum.triangles[t][k], v = sum.triangles[t][(k + 1) % 3];
+      vertices[component].insert(u);
+      components_of_edge[std::minmax(u, v)].insert(component);
+    }
+  }
+  for (const auto& [ends, components] : components_of_edge) {
+    ASSERT_EQ(components.size(), 1u);
+    ++edges[*components.begin()];
+  }
+  for (std::size_t c = 0; c < sum.components.size(); ++c) {
+    EXPECT_EQ(sum.components[c].vertex_count, std::ssize(vertices[c]));
+    EXPECT_EQ(sum.components[c].edge_count, edges[c]);
+    EXPECT_EQ(sum.components[c].triangle_count, triangles[c]);
+    EXPECT_EQ(sum.components[c].euler_characteristic(),
+              std::ssize(vertices[c]) - edges[c] + triangles[c]);
+  }
+}
+
 void ExpectClosed(const SumBoundary& sum) {
+  ExpectCountsOfComponents(sum);
   EXPECT_EQ(sum.border_edges, 0);
   EXPECT_EQ(sum.detached_patches, 0);
   EXPECT_EQ(sum.triangles.size(), sum.facet_of_triangle.size());
@@ -204,6 +237,55 @@ TEST(SumBoundary, AgreesWithMembershipWhereFeaturesAlign) {
   }
 }
 
+// Handles: a ring with a pin through it, two rings, a frame with two holes.
+TEST(SumBoundary, EulerCharacteristics) {
+  const auto characteristics = [](const Sum& sum) {
+    ExpectClosed(sum.boundary);
+    std::vector<int> all;
+    for (const SumComponent& each : sum.boundary.components) {
+      all.push_back(each.euler_characteristic());
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const Shape pin = Box({0, 0, 0}, {0.25, 0.25, 0.25});
+  const Shape ring = Torus(12, 8, 3.0, 0.5);
+  testing::Random random(39);
+  const RelativePose turned = PoseOf(random.Rotation());
+  EXPECT_EQ(characteristics(SumOf(ring, pin, turned)), (std::vector<int>{0}));
+  EXPECT_EQ(characteristics(SumOf(Together(ring, Moved(ring, 1.0, {9, 0, 0})), pin, turned)),
+            (std::vector<int>{0, 0}));
+  std::vector<std::array<int, 3>> frame;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (j != 1 || i % 2 == 0) frame.push_back({i, j, 0});
+    }
+  }
+  EXPECT_EQ(characteristics(SumOf(Cubes(frame), pin)), (std::vector<int>{-2}));
+  EXPECT_EQ(characteristics(SumOf(Cubes(frame), pin, turned)), (std::vector<int>{-2}));
+  // The cavity of a hollow box, and a body that is too large for it.
+  EXPECT_EQ(characteristics(SumOf(HollowBox(), pin, turned)), (std::vector<int>{2, 2}));
+  EXPECT_EQ(characteristics(SumOf(HollowBox(), Box({0, 0, 0}, {3, 3, 3}), turned)),
+            (std::vector<int>{2}));
+}
+
+// One body far inside what the other spans: M is nearly the larger one.
+TEST(SumBoundary, StrictContainment) {
+  testing::Random random(40);
+  for (const double size : {0x1p-4, 0x1p-10, 0x1p-30}) {
+    const Sum sum = SumOf(Torus(12, 8, 3.0, 0.5), Moved(Star(5), size, {0.5, 0.5, 0.5}),
+                          PoseOf(random.Rotation()));
+    ExpectClosed(sum.boundary);
+    ASSERT_EQ(sum.boundary.components.size(), 1u);
+    EXPECT_EQ(sum.boundary.components[0].euler_characteristic(), 0);
+    // The speck within the solid, though no face is near.
+    const Vector3d inside =
+        Vector3d(3, 0, 0) - sum.pair.pose().rotation() * Vector3d(0.5, 0.5, 0.5);
+    EXPECT_EQ(Membership(sum.pair, inside).verdict, Verdict::kOverlap);
+    EXPECT_NEAR(WindingNumber(sum.boundary, inside), 1.0, 1e-6);
+  }
+}
+
 TEST(SumBoundary, SwappingTheBodiesReflectsTheSum) {
   for (const auto& [name_a, name_b] : {std::pair("u", "l"), std::pair("star", "axes")}) {
     const Shape a = NamedShape(name_a, 0), b = NamedShape(name_b, 0);
@@ -280,6 +362,19 @@ TEST(SumBoundary, SpikeInADimple) {
   for (const SumFacet& facet : sum.boundary.facets) {
     EXPECT_FALSE(facet.kind == SumFacetKind::kVertexFace && facet.a == apex);
   }
+  // Apex on apex, the bodies touch: a vertex of the surface.
+  int tip = -1;
+  const TriangleMesh& b = sum.pair.b().mesh;
+  for (int v = 0; v < b.vertex_count(); ++v) {
+    if (tip < 0 || b.vertex(v)[2] > b.vertex(tip)[2]) tip = v;
+  }
+  const Vector3d contact = a.vertex(apex) - over * b.vertex(tip);
+  EXPECT_EQ(Membership(sum.pair, contact).verdict, Verdict::kTouch);
+  const auto named = std::find_if(
+      sum.boundary.names.begin(), sum.boundary.names.end(), [&](const SumPointName& name) {
+        return name.kind == SumPointKind::kVertex && name.vertices[0] == SumVertex{apex, tip};
+      });
+  EXPECT_NE(named, sum.boundary.names.end());
   EXPECT_LT(Volume(sum.boundary),
             Volume(SumOf(Box({-2, -2, -2}, {2, 2, 0}), spike, PoseOf(over)).boundary) - 1e-3);
 }

@@ -144,5 +144,35 @@ TEST(VerifyMembership, PiecesAddUp) {
   EXPECT_EQ(seen.count("undecided"), 1u);
 }
 
+// Of the whole campaign every so many a few: all shapes come up.
+TEST(VerifyBoundary, CasesAreWithoutFindings) {
+  int cases = 0, aligned = 0, thin = 0, enumerated = 0;
+  for (int first = 0; first < 361; first += 19) {
+    const ProgramRun run =
+        RunProgram("verify --boundary --json --count 3 --first " + std::to_string(first));
+    ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+    const auto json = run.json();
+    ASSERT_EQ(json["results"].size(), 3u);
+    for (const auto& row : json["results"]) {
+      EXPECT_EQ(row["findings"], 0);
+      EXPECT_TRUE(row["samples"].empty());
+      cases += row["cases"].get<int>();
+      thin += row["with_thin_parts"].get<int>();
+      enumerated += row["enumerated"].get<int>();
+      if (row["turned"] == "aligned") aligned += row["cases"].get<int>();
+    }
+  }
+  EXPECT_EQ(cases, 3 * 19);
+  EXPECT_GT(aligned, 5);
+  EXPECT_GT(thin, 0);
+  EXPECT_GT(enumerated, 0);
+}
+
+TEST(VerifyBoundary, RefusesMinutes) {
+  const ProgramRun run = RunProgram("verify --boundary --minutes 1");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--boundary takes a --count"));
+}
+
 }  // namespace
 }  // namespace touchstone

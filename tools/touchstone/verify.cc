@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "touchstone/tools/boundary_run.h"
 #include "touchstone/tools/membership_run.h"
 #include "touchstone/tools/mesh_depth_run.h"
 #include "touchstone/tools/numbers.h"
@@ -32,11 +33,13 @@ struct Arguments {
   std::string meshes, cases;
   int threads = 0;
   std::string certainty = "exact", early_exit = "mixed", depth = "mixed";
-  bool coverage = false, proximity = false, membership = false, mesh_depth = false, nef = false,
-       json = false;
+  bool coverage = false, proximity = false, membership = false, boundary = false,
+       mesh_depth = false, nef = false, json = false;
 };
 
 constexpr std::uint64_t kDefaultCount = 1000;
+constexpr std::uint64_t kDefaultBoundaries = 400;
+constexpr std::uint64_t kBoundaryPiece = 100;  // cases from one line of progress to the next
 constexpr std::uint64_t kMembershipPiece =
     10000;  // placements from one line of progress to the next
 
@@ -99,6 +102,51 @@ void ShowProgress(const Progress& progress) {
   std::cerr << "\r[" << std::string(filled, '#') << std::string(kWidth - filled, '.') << "] "
             << static_cast<int>(100.0 * progress.fraction) << "%  " << progress.queries
             << " judged, " << progress.findings << " findings " << std::flush;
+}
+
+int RunBoundaryCommand(const Arguments& arguments) {
+  if (arguments.minutes != 0.0) throw BadInput{"--minutes: --boundary takes a --count"};
+  const BoundaryRunOptions options{arguments.seed, arguments.first,
+                                   arguments.count == 0 ? kDefaultBoundaries : arguments.count};
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const auto stats = RunBoundaryCases(options, [&](std::uint64_t cases, std::uint64_t findings) {
+    if (!terminal && cases % kBoundaryPiece != 0) return;
+    std::cerr << (terminal ? "\r" : "") << "cases " << options.first << " to "
+              << options.first + cases << ", " << findings << " findings" << (terminal ? " " : "\n")
+              << std::flush;
+  });
+  if (terminal) std::cerr << "\r\033[K";
+  Json json = {{"seed", options.seed}, {"first", options.first}, {"count", options.count}};
+  json["results"] = Json::array();
+  Table table;
+  table.Row({"turned", "cases", "triangles", "components", "with thin parts", "every piece placed",
+             "findings"});
+  std::uint64_t findings = 0;
+  for (int t = 0; t < kBoundaryTurnCount; ++t) {
+    const BoundaryStats& own = stats[t];
+    const std::string name(ToString(static_cast<BoundaryTurn>(t)));
+    json["results"].push_back({{"turned", name},
+                               {"cases", own.cases},
+                               {"triangles", own.triangles},
+                               {"components", own.components},
+                               {"with_thin_parts", own.with_thin_parts},
+                               {"enumerated", own.enumerated},
+                               {"findings", own.findings},
+                               {"samples", own.samples}});
+    table.Row({name, std::to_string(own.cases), std::to_string(own.triangles),
+               std::to_string(own.components), std::to_string(own.with_thin_parts),
+               std::to_string(own.enumerated), std::to_string(own.findings)});
+    findings += own.findings;
+  }
+  if (arguments.json) {
+    std::cout << json.dump(2) << '\n';
+  } else {
+    table.Print(std::cout);
+    for (const BoundaryStats& own : stats) {
+      for (const std::string& sample : own.samples) std::cout << sample << '\n';
+    }
+  }
+  return findings == 0 ? kFine : kFindings;
 }
 
 int RunMembershipCommand(const Arguments& arguments) {
@@ -206,6 +254,7 @@ int RunVerifyCommand(const Arguments& arguments) {
   if (arguments.nef && !arguments.mesh_depth) throw BadInput{"--nef: belongs to --mesh-depth"};
   if (arguments.mesh_depth) return RunMeshDepthCommand(arguments);
   if (arguments.membership) return RunMembershipCommand(arguments);
+  if (arguments.boundary) return RunBoundaryCommand(arguments);
   if (!arguments.meshes.empty() && !std::filesystem::is_directory(arguments.meshes)) {
     throw BadInput{"--meshes: " + arguments.meshes + " is not a folder"};
   }
@@ -294,6 +343,9 @@ void AddVerify(CLI::App& app, int& exit_code) {
   command->add_flag("--nef", arguments->nef,
                     "with --mesh-depth: small bodies, against whole boundaries by Nef polyhedra, "
                     "30 s each at most");
+  command->add_flag("--boundary", arguments->boundary,
+                    "build whole Minkowski boundaries of small bodies, aligned, nearly so and "
+                    "anyhow, and judge them: --count cases from --first on, on one thread");
   command->add_flag("--json", arguments->json, "print JSON");
   command->footer(
       "Exit code 1 when a proven search has a finding; the published search's are counted, not an "
