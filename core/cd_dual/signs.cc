@@ -32,7 +32,7 @@ DyadicVector ExactDifference::Edge(Body body, int to, int from) const {
 }
 
 const ExactDifference& Signs::exact() {
-  if (!exact_) exact_ = std::make_unique<ExactDifference>(m_);
+  if (!exact_) exact_.emplace(m_);
   return *exact_;
 }
 

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 #include <optional>
 
 #include "touchstone/core/base/exact_pose.h"
@@ -77,7 +76,7 @@ class Signs {
 
   const MinkowskiDifference& m_;
   Certainty certainty_;
-  std::unique_ptr<ExactDifference> exact_;
+  std::optional<ExactDifference> exact_;
   long exact_count_ = 0;
 };
 

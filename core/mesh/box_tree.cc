@@ -78,7 +78,7 @@ void MeetingLanes(const BoxNode& a, const BoxNode& b, const Vector3d& offset, do
       const double low = b.low[axis][j] + offset[axis] - margin;
       const double high = b.high[axis][j] + offset[axis] + margin;
       for (int i = 0; i < kTreeWidth; ++i) {
-        meets[i] = (a.low[axis][i] <= high) & (a.high[axis][i] >= low) ? meets[i] : 0;
+        meets[i] = ((a.low[axis][i] <= high) & (a.high[axis][i] >= low)) ? meets[i] : 0;
       }
     }
     std::int64_t mask = 0;
