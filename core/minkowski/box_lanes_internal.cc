@@ -52,7 +52,7 @@ unsigned BoxLanes::Mask(const Lanes& lanes, const Box3& box) {
   for (int axis = 0; axis < 3; ++axis) {
     const double low = box.low[axis], high = box.high[axis];
     for (int i = 0; i < kTreeWidth; ++i) {
-      meets[i] = (lanes.low[axis][i] > high) | (lanes.high[axis][i] < low) ? 0 : meets[i];
+      meets[i] = ((lanes.low[axis][i] > high) | (lanes.high[axis][i] < low)) ? 0 : meets[i];
     }
   }
   std::int64_t mask = 0;

@@ -116,8 +116,9 @@ void ConeTree::MeetingCones(const Node& a, const Node& b, std::uint8_t masks[kWi
       const double cosine =
           a.axis[0][i] * b.axis[0][j] + a.axis[1][i] * b.axis[1][j] + a.axis[2][i] * b.axis[2][j];
       const double least = a.cosine[i] * b.cosine[j] - a.sine[i] * b.sine[j];
-      const bool overlap = (cosine >= least) | (a.cosine[i] < -1.0) | (b.cosine[j] < -1.0);
-      meets[i] = overlap ? std::int64_t{1} << i : 0;
+      meets[i] = ((cosine >= least) | (a.cosine[i] < -1.0) | (b.cosine[j] < -1.0))
+                     ? std::int64_t{1} << i
+                     : 0;
     }
     std::int64_t mask = 0;
     for (int i = 0; i < kWidth; ++i) mask |= meets[i];

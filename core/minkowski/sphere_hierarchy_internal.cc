@@ -102,7 +102,7 @@ unsigned MeetingLanes(const Node& node, const LaneBound& other, const Vector3d& 
                           node.axis[2][i] * other.axis[2];
     const double least = node.cosine[i] * other.cosine - node.sine[i] * other.sine;
     // In a form that compilers know to put into lanes.
-    meets[i] = (dx * dx + dy * dy + dz * dz > reach * reach) | (cosine < least) ? 0 : meets[i];
+    meets[i] = ((dx * dx + dy * dy + dz * dz > reach * reach) | (cosine < least)) ? 0 : meets[i];
   }
   std::int64_t mask = 0;
   for (int i = 0; i < kWidth; ++i) mask |= meets[i];

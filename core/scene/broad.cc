@@ -221,9 +221,9 @@ void Scene::Data::Rewire() {
   pinned.clear();
   for (const auto& [slots, wanted] : pair_subscriptions) {
     if (!wanted.distance && !wanted.travel) continue;
-    ForParts(bodies[slots.first], [&](int p) {
-      ForParts(bodies[slots.second], [&](int q) { pinned.emplace_back(p, q); });
-    });
+    const internal::SceneBody& second = bodies[slots.second];
+    ForParts(bodies[slots.first],
+             [&](int p) { ForParts(second, [&](int q) { pinned.emplace_back(p, q); }); });
   }
 }
 
