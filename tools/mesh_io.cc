@@ -37,7 +37,7 @@ using CgalPolygons = std::vector<std::vector<std::size_t>>;
 constexpr rlim_t kMemoryForReading = rlim_t{1} << 32;
 
 // Address sanitizers reserve terabytes and cannot run under the limit.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef TOUCHSTONE_SANITIZED
 constexpr bool kLimitMemory = false;
 #else
 constexpr bool kLimitMemory = true;

@@ -18,7 +18,7 @@
 namespace touchstone::testing {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef TOUCHSTONE_SANITIZED
 constexpr long kSigns = 200'000;  // slow builds look for other faults
 #else
 constexpr long kSigns = 10'000'000;

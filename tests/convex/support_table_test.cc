@@ -145,7 +145,7 @@ TEST(SupportTable, NothingLiesAboveTheRise) {
   EXPECT_GT(tight, 20);
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef TOUCHSTONE_SANITIZED
 constexpr int kManyVertices = 100'000;  // slow builds look for other faults
 #else
 constexpr int kManyVertices = 1'000'000;
