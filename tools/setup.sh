@@ -5,8 +5,8 @@ packages=(g++ cmake ninja-build libeigen3-dev libboost-dev libcgal-dev libgmp-de
           libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev libtbb-dev libsqlite3-dev libopenmpi-dev openmpi-bin
           libccd-dev libfcl-dev libbullet-dev)
 mesh_package=libcgal-demo
-# What the sanitizers' build and tools/fuzzers compile with.
-sanitizer_packages=(clang libclang-rt-14-dev)
+# What tools/fuzzers compiles with.
+fuzzer_packages=(clang libclang-rt-14-dev)
 # What draws the figures of `touchstone bench`.
 plot_packages=(python3-matplotlib)
 # Meshes of more bytes take longer to read than they are worth.
