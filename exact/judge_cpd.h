@@ -43,8 +43,7 @@ std::vector<std::string> JudgeMeshDepth(const TriangleMesh& a, const TriangleMes
 // of exact slots, only their corners and the middles of their edges are asked, which the lower
 // bound may not pass. Seconds to minutes: see MakeNefMeshSum.
 std::vector<std::string> JudgeMeshDepthByNef(const TriangleMesh& a, const TriangleMesh& b,
-                                             const RelativePose& pose,
-                                             const MeshDepthClaim& claim);
+                                             const RelativePose& pose, const MeshDepthClaim& claim);
 
 }  // namespace touchstone::exact
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "touchstone/exact/faces_internal.h"
+#include "touchstone/exact/faces.h"
 #include "touchstone/exact/phase_maxima.h"
 #include "touchstone/exact/support.h"
 
@@ -61,7 +61,7 @@ Real DistanceOf(const PlacedPair& pair, const SupportingPlane& plane) {
 
 std::optional<SupportingPlane> NearestFacet(const PlacedPair& pair) {
   const ExactBodyData &p = pair.p(), &q = pair.q();
-  // A component of a direction is off by at most 2^-46 (faces_internal.h), a length by twice that.
+  // A component of a direction is off by at most 2^-46 (faces.h), a length by twice that.
   constexpr double kNormalError = 0x1p-45;
   Contenders by_p, by_q, by_edges;
   for (int f = 0; f < p.face_count; ++f) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "touchstone/exact/faces_internal.h"
+#include "touchstone/exact/faces.h"
 #include "touchstone/exact/support.h"
 
 namespace touchstone::exact {

@@ -4,7 +4,7 @@
 #include <climits>
 #include <cmath>
 
-#include "touchstone/exact/faces_internal.h"
+#include "touchstone/exact/faces.h"
 #include "touchstone/exact/judge/checks.h"
 
 namespace touchstone::exact {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "touchstone/exact/faces_internal.h"
+#include "touchstone/exact/faces.h"
 #include "touchstone/exact/judge/checks.h"
 #include "touchstone/exact/judge/values.h"
 

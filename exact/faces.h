@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The faces of M in doubles, for scans over all of them.
-#ifndef TOUCHSTONE_EXACT_FACES_INTERNAL_H_
-#define TOUCHSTONE_EXACT_FACES_INTERNAL_H_
+#ifndef TOUCHSTONE_EXACT_FACES_H_
+#define TOUCHSTONE_EXACT_FACES_H_
 
 #include <Eigen/Core>
 #include <functional>
@@ -45,4 +45,4 @@ class ArcTest {
 
 }  // namespace touchstone::exact
 
-#endif  // TOUCHSTONE_EXACT_FACES_INTERNAL_H_
+#endif  // TOUCHSTONE_EXACT_FACES_H_

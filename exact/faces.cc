@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "touchstone/exact/faces_internal.h"
+#include "touchstone/exact/faces.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
