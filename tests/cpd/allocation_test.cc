@@ -6,38 +6,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 
 #include "touchstone/core/cpd/continuous_penetration_depth.h"
 #include "touchstone/core/cpd/mesh_penetration_depth.h"
 #include "touchstone/core/mesh/membership.h"
+#include "touchstone/tests/testing/allocations.h"
 #include "touchstone/tools/shapes/paper_scenes.h"
-
-namespace {
-long allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto align = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 
 namespace touchstone {
 namespace {
@@ -55,11 +29,11 @@ TEST(Allocation, NoneInTheMembershipsOfAWarmFrame) {
       pair.Place(scene.PoseAt(0.3 + i * step));
       for (int k = 0; k < 20; ++k) {
         const Vector3d x = (0.08 * k) * kPaperSumRadius * Vector3d(std::sin(k), std::cos(k), 0.3);
-        const long before = allocations;
+        const long before = testing::AllocationCount();
         const MembershipResult result = Membership(pair, x, {Certainty::kFloat}, &cache);
         if (i == 0) continue;  // storage grows to what it takes
         ++queries;
-        warm += allocations == before;
+        warm += testing::AllocationCount() == before;
         EXPECT_NE(result.verdict, Verdict::kTouch);
       }
     }
@@ -78,15 +52,15 @@ TEST(Allocation, NoneInMostWarmFrames) {
     int kept = 0, kept_free = 0, listed = 0, listed_free = 0;
     for (int i = 0; i < 40; ++i) {
       const RelativePose pose = scene.PoseAt(0.3 + i * step);
-      long before = allocations;
+      long before = testing::AllocationCount();
       const ContinuousDepthResult result = cpd.Update(pose);
       kept += i > 8 && result.iterations == 0;
-      kept_free += i > 8 && result.iterations == 0 && allocations == before;
+      kept_free += i > 8 && result.iterations == 0 && testing::AllocationCount() == before;
       pair.Place(pose);
-      before = allocations;
+      before = testing::AllocationCount();
       const MeshDepthResult depth = MeshPenetrationDepth(pair, body_a, body_b, {}, &cache);
       listed += i > 8 && depth.node_pairs == 0;
-      listed_free += i > 8 && depth.node_pairs == 0 && allocations == before;
+      listed_free += i > 8 && depth.node_pairs == 0 && testing::AllocationCount() == before;
     }
     SCOPED_TRACE(scene.name);
     EXPECT_GT(kept, 15);

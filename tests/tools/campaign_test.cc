@@ -120,7 +120,7 @@ TEST(Campaign, TheJudgeSeesWhatIsPlanted) {
     if (!suite->unavailable().empty()) continue;
     const CampaignPlan plan{
         .suites = {suite.get()}, .engines = {"corrupted"}, .seed = 6, .rates = {}};
-    Merge(sum, BatchRunner(plan).Run({0, 0, 120}, {}, [](std::uint64_t, int) {}).tally);
+    Merge(sum, BatchRunner(plan).Run({0, 0, 240}, {}, [](std::uint64_t, int) {}).tally);
   }
   EXPECT_EQ(sum.count("corrupted\tfindings"), 0u);
   int kinds = 0;
@@ -129,7 +129,7 @@ TEST(Campaign, TheJudgeSeesWhatIsPlanted) {
     EXPECT_GE(count, 10u) << key;
     ++kinds;
   }
-  EXPECT_EQ(kinds, 17);
+  EXPECT_EQ(kinds, 18);
 }
 
 TEST(Campaign, BatchesSurviveTheWayThroughAPipe) {

@@ -2,6 +2,7 @@
 //
 // A judge that finds nothing may be blind. Here one thing is broken in a result of ours that the
 // judge let stand; a finding is that the judge did not see it.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,6 +64,39 @@ bool FacetReversed(CollideResult& result, const PlacedPair&) {
     default:
       return false;
   }
+}
+
+// Whether the plane through a vertex of P across n has vertices of P on both sides, clearly.
+bool Cuts(const ConvexPolyhedron& p, int vertex, const Eigen::Vector3d& n) {
+  const double clear = 1e-6 * n.norm() * p.max_coordinate();
+  bool above = false, below = false;
+  for (int v = 0; v < p.vertex_count(); ++v) {
+    const double height = n.dot(p.vertex(v) - p.vertex(vertex));
+    above |= height > clear;
+    below |= height < -clear;
+  }
+  return above && below;
+}
+
+// Where bodies touch in two vertices, o is a corner of any triangle with that point of M: here of
+// one whose plane cuts M.
+bool PlaneThroughM(CollideResult& result, const PlacedPair& pair) {
+  if (result.certificate.kind != CertificateKind::kTouchingFacet) return false;
+  const auto place = [&](int q) -> Eigen::Vector3d {
+    return pair.pose.rotation() * pair.q.vertex(q) + pair.pose.translation();
+  };
+  for (const VertexPair point : result.certificate.points) {
+    if (point.p < 0 || point.q < 0 || pair.p.vertex(point.p) != place(point.q)) continue;
+    const int next_p = pair.p.vertex_neighbors(point.p)[0];
+    for (const int next_q : pair.q.vertex_neighbors(point.q)) {
+      const Eigen::Vector3d n =
+          (pair.p.vertex(next_p) - pair.p.vertex(point.p)).cross(place(point.q) - place(next_q));
+      if (!Cuts(pair.p, point.p, n)) continue;
+      result.certificate.points = {point, {next_p, point.q}, {point.p, next_q}};
+      return true;
+    }
+  }
+  return false;
 }
 
 bool ProofOutOfRange(CollideResult& result, const PlacedPair& pair) {
@@ -136,7 +170,7 @@ struct NamedBreak {
   Break apply;
   bool early_exit = false;  // of a result that is asked for so: it holds a separating direction
 };
-constexpr std::array<NamedBreak, 17> kBreaks = {{
+constexpr std::array<NamedBreak, 18> kBreaks = {{
     {"other_verdict", OtherVerdict},
     {"says_undecided", SaysUndecided},
     {"no_certificate", NoCertificate},
@@ -144,6 +178,7 @@ constexpr std::array<NamedBreak, 17> kBreaks = {{
     {"direction_not_a_number", DirectionNotANumber, true},
     {"proof_collapsed", ProofCollapsed},
     {"facet_reversed", FacetReversed},
+    {"plane_through_m", PlaneThroughM},
     {"proof_out_of_range", ProofOutOfRange},
     {"exit_face_collapsed", ExitFaceCollapsed},
     {"other_class", OtherClass},
