@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kSamples = 20;
 constexpr std::array<int, 3> kFaceCounts = {12, 20, 32};
-constexpr std::size_t kMostFacetsToEnumerate = 40;
+constexpr std::size_t kMostFacetsToEnumerate = 120;
 
 double LargestCoordinate(const Shape& shape) {
   double largest = 0.0;
