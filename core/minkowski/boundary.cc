@@ -13,6 +13,7 @@
 #include "touchstone/core/minkowski/arrangement_internal.h"
 #include "touchstone/core/minkowski/cells_internal.h"
 #include "touchstone/core/minkowski/flat_table_internal.h"
+#include "touchstone/core/minkowski/patches_internal.h"
 #include "touchstone/core/minkowski/sample_internal.h"
 #include "touchstone/core/minkowski/triangulate_cell_internal.h"
 
@@ -37,11 +38,11 @@ class Builder {
   SumBoundary Run() {
     arrangement_ = internal::Arrange(&geometry_, result_.facets);
     complex_ = internal::FindCells(&geometry_, arrangement_);
-    FormPatches();
+    patches_.Form(complex_, {});
     ClassifyPatches();
     number_of_point_.assign(geometry_.point_count(), -1);
     for (std::size_t c = 0; c < complex_.cells.size(); ++c) {
-      if (is_kept_[patch_[c]]) AddCell(static_cast<int>(c));
+      if (IsKept(static_cast<int>(c))) AddCell(static_cast<int>(c));
     }
     AddLonePieces();
     CountComponents();
@@ -57,59 +58,18 @@ class Builder {
   int cell_count() const { return static_cast<int>(complex_.cells.size()); }
   int piece_count() const { return static_cast<int>(complex_.pieces.size()); }
 
-  // Cells that meet along a piece with no third beside them lie in M° together or not at all:
-  // nothing else of ∂M comes there. Nor do two part company where all others at their piece are
-  // buried: the wedges beside a buried cell are in M°, and only one between the two can be out of
-  // it; it is, and both are on ∂M, or it is not, and both are in M°. (That holds of cells faced
-  // from one side: they have no other contact than their facet's, so just outside ∂M's M° ends. One
-  // faced from both may be an exact slot.)
-  void FormPatches() {
-    cells_of_piece_ = internal::ListByOwner<int>(piece_count(), [&](const auto& visit) {
-      for (int c = 0; c < cell_count(); ++c) {
-        for (const int piece : cell(c).pieces) visit(piece, c);
-      }
-    });
-    patch_.resize(complex_.cells.size());
-    std::iota(patch_.begin(), patch_.end(), 0);
-    for (int i = 0; i < piece_count(); ++i) {
-      const std::span<const int> cells = cells_of_piece_.Of(i);
-      if (cells.size() == 2) patch_[Patch(cells[0])] = Patch(cells[1]);
-    }
-    is_buried_.assign(complex_.cells.size(), 0);
-    for (int c = 0; c < cell_count(); ++c) is_buried_[Patch(c)] |= cell(c).is_buried;
-    for (int i = 0; i < piece_count(); ++i) JoinOverCrossing(cells_of_piece_.Of(i));
-    for (int c = 0; c < cell_count(); ++c) patch_[c] = Patch(c);
-  }
-
-  void JoinOverCrossing(std::span<const int> cells) {
-    if (cells.size() <= 2) return;
-    std::array<int, 2> open{};
-    int count = 0;
-    for (const int c : cells) {
-      if (is_buried_[Patch(c)]) continue;
-      if (count == 2 || FacingSides(c) != 1) return;
-      open[count++] = c;
-    }
-    if (count == 2) patch_[Patch(open[0])] = Patch(open[1]);
-  }
-
-  int Patch(int c) {
-    while (patch_[c] != c) c = patch_[c] = patch_[patch_[c]];
-    return c;
-  }
-
   void ClassifyPatches() {
     std::vector<int> largest(complex_.cells.size(), -1);
     std::vector<double> area(complex_.cells.size(), -1.0);
     for (int c = 0; c < cell_count(); ++c) {
-      const int p = patch_[c];
-      if (is_buried_[p]) continue;
+      const int p = patches_.of(c);
+      if (patches_.is_buried(p)) continue;
       const double own = SquaredAreaOf(cell(c).loops[0]);
       if (own > area[p]) area[p] = own, largest[p] = c;
     }
     is_kept_.assign(complex_.cells.size(), 0);
     for (int p = 0; p < cell_count(); ++p) {
-      result_.patches += patch_[p] == p;
+      result_.patches += patches_.of(p) == p;
       if (largest[p] >= 0) is_kept_[p] = IsOutsideM(largest[p]);
     }
   }
@@ -140,33 +100,16 @@ class Builder {
     }
     if (largest < 0.0) return false;
     const int facet = cell(c).along.empty() ? cell(c).against[0] : cell(c).along[0];
-    const internal::Sample sample =
-        internal::SampleIn(&geometry_, arrangement_.facets[facet], triangle);
-    const Verdict verdict = VerdictAt(sample);
+    ++result_.memberships;
+    const Verdict verdict =
+        internal::VerdictIn(&geometry_, arrangement_.facets[facet], triangle, &membership_cache_);
     result_.detached_patches += verdict == Verdict::kSeparate;
     return verdict != Verdict::kOverlap;
   }
 
-  Verdict VerdictAt(const internal::Sample& sample) {
-    ++result_.memberships;
-    return Membership(pair_, Translation(sample.rounded, sample.error, sample.exact), {},
-                      &membership_cache_)
-        .verdict;
-  }
-
-  // Whether the middle between two points lies in M°: in doubles, if they can tell.
   bool IsMiddleInM(int x, int y) {
-    const SumPoint &p = geometry_.point(x), &q = geometry_.point(y);
-    Translation middle(Vector3d(0.5 * (p.rounded + q.rounded) / pair_.scale()));
-    middle.error =
-        (1.01 * std::max(p.error, q.error) +
-         2.0 * kUnit * (p.rounded.cwiseAbs().maxCoeff() + q.rounded.cwiseAbs().maxCoeff())) /
-        pair_.scale();
     ++result_.memberships;
-    const Verdict verdict =
-        Membership(pair_, middle, {Certainty::kFloat}, &membership_cache_).verdict;
-    if (verdict != Verdict::kUndecided) return verdict == Verdict::kOverlap;
-    return VerdictAt(internal::SampleBetween(&geometry_, x, y)) == Verdict::kOverlap;
+    return internal::VerdictBetween(&geometry_, x, y, &membership_cache_) == Verdict::kOverlap;
   }
 
   void AddCell(int c) {
@@ -216,16 +159,16 @@ class Builder {
     AddLonePoints(is_near_kept);
   }
 
-  bool IsNearKept(int piece) const {
-    const std::span<const int> cells = cells_of_piece_.Of(piece);
-    return std::any_of(cells.begin(), cells.end(), [&](int c) { return is_kept_[patch_[c]] != 0; });
-  }
+  bool IsKept(int c) const { return is_kept_[patches_.of(c)] != 0; }
 
-  int FacingSides(int c) const { return !cell(c).along.empty() + !cell(c).against.empty(); }
+  bool IsNearKept(int piece) const {
+    const std::span<const int> cells = patches_.CellsAt(piece);
+    return std::any_of(cells.begin(), cells.end(), [&](int c) { return IsKept(c); });
+  }
 
   int FacingSidesAt(int piece) const {
     int sides = 0;
-    for (const int c : cells_of_piece_.Of(piece)) sides += FacingSides(c);
+    for (const int c : patches_.CellsAt(piece)) sides += internal::FacingSides(cell(c));
     return sides;
   }
 
@@ -236,7 +179,7 @@ class Builder {
   // The planes of the cells at a piece, by which way they face.
   const std::vector<std::pair<int, bool>>& PlanesOf(int piece) {
     planes_.clear();
-    for (const int c : cells_of_piece_.Of(piece)) {
+    for (const int c : patches_.CellsAt(piece)) {
       const int root = arrangement_.groups[cell(c).group].plane;
       if (!cell(c).along.empty()) planes_.emplace_back(root, true);
       if (!cell(c).against.empty()) planes_.emplace_back(root, false);
@@ -329,9 +272,8 @@ class Builder {
   CellComplex complex_;
   SumBoundary result_;
   MembershipCache membership_cache_;
-  internal::ItemLists<int> cells_of_piece_;
-  std::vector<int> patch_;
-  std::vector<char> is_buried_, is_kept_;     // by patch
+  internal::Patches patches_;
+  std::vector<char> is_kept_;                 // by patch
   std::vector<int> number_of_point_;          // in the result; -1: not there
   std::vector<std::pair<int, bool>> planes_;  // scratch
 };

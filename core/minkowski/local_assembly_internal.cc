@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "touchstone/core/minkowski/arrangement_internal.h"
 #include "touchstone/core/minkowski/cells_internal.h"
 #include "touchstone/core/minkowski/local_surface_internal.h"
+#include "touchstone/core/minkowski/patches_internal.h"
 #include "touchstone/core/minkowski/sample_internal.h"
 #include "touchstone/core/minkowski/triangulate_cell_internal.h"
 
@@ -40,7 +40,8 @@ class Assembler {
     complex_ = FindCells(&geometry_, arrangement_);
     MeasurePieces();
     SelectCells();
-    FormPatches();
+    // Of a piece that is not in the ball not all cells may be known.
+    patches_.Form(complex_, is_whole_ ? std::span<const char>() : is_near_);
     ClassifyPatches();
     AddCells();
     AddLonePieces();
@@ -105,73 +106,12 @@ class Assembler {
 
   bool IsWanted(int c) const { return is_whole_ || is_selected_[c]; }
 
-  // Cells that meet along a piece with no third beside them lie in M° together or not at all:
-  // nothing else of ∂M comes there. Nor do two part company where all others at their piece are
-  // buried: the wedges beside a buried cell are in M°, and only one between the two can be out of
-  // it; it is, and both are on ∂M, or it is not, and both are in M°. (That holds of cells faced
-  // from one side: they have no other contact than their facet's, so just outside ∂M's M° ends. One
-  // faced from both may be an exact slot.) Of a piece that is not in the ball not all may be known.
-  void FormPatches() {
-    ListCellsOfPieces();
-    patch_.resize(complex_.cells.size());
-    std::iota(patch_.begin(), patch_.end(), 0);
-    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
-      const std::span<const int> cells = CellsAt(i);
-      if (cells.size() == 2 && IsKnown(i)) patch_[Patch(cells[0])] = Patch(cells[1]);
-    }
-    is_buried_.assign(complex_.cells.size(), 0);
-    for (int c = 0; c < cell_count(); ++c) is_buried_[Patch(c)] |= cell(c).is_buried;
-    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
-      if (CellsAt(i).size() > 2 && IsKnown(i)) JoinOverCrossing(CellsAt(i));
-    }
-    for (int c = 0; c < cell_count(); ++c) patch_[c] = Patch(c);
-  }
-
-  // In the order of cells.
-  void ListCellsOfPieces() {
-    first_cell_.assign(complex_.pieces.size() + 1, 0);
-    for (int c = 0; c < cell_count(); ++c) {
-      for (const int piece : cell(c).pieces) ++first_cell_[piece + 1];
-    }
-    std::partial_sum(first_cell_.begin(), first_cell_.end(), first_cell_.begin());
-    cells_at_pieces_.resize(first_cell_.back());
-    std::vector<int> next(first_cell_.begin(), first_cell_.end() - 1);
-    for (int c = 0; c < cell_count(); ++c) {
-      for (const int piece : cell(c).pieces) cells_at_pieces_[next[piece]++] = c;
-    }
-  }
-
-  std::span<const int> CellsAt(std::size_t piece) const {
-    return std::span(cells_at_pieces_)
-        .subspan(first_cell_[piece], first_cell_[piece + 1] - first_cell_[piece]);
-  }
-
-  bool IsKnown(std::size_t piece) const { return is_whole_ || is_near_[piece]; }
-
-  void JoinOverCrossing(std::span<const int> cells) {
-    std::array<int, 2> open{};
-    int count = 0;
-    for (const int c : cells) {
-      if (is_buried_[Patch(c)]) continue;
-      if (count == 2 || FacingSides(c) != 1) return;
-      open[count++] = c;
-    }
-    if (count == 2) patch_[Patch(open[0])] = Patch(open[1]);
-  }
-
-  int FacingSides(int c) const { return !cell(c).along.empty() + !cell(c).against.empty(); }
-
-  int Patch(int c) {
-    while (patch_[c] != c) c = patch_[c] = patch_[patch_[c]];
-    return c;
-  }
-
   void ClassifyPatches() {
     std::vector<int> largest(complex_.cells.size(), -1);
     std::vector<double> area(complex_.cells.size(), -1.0);
     for (int c = 0; c < cell_count(); ++c) {
       if (!IsWanted(c)) continue;
-      const int p = patch_[c];
+      const int p = patches_.of(c);
       const double own = SquaredAreaOf(cell(c).loops[0]);
       if (own > area[p]) area[p] = own, largest[p] = c;
     }
@@ -180,7 +120,7 @@ class Assembler {
     for (int p = 0; p < cell_count(); ++p) {
       if (area[p] < 0.0) continue;
       ++sum_.patches;
-      if (!is_buried_[p]) is_kept_[p] = IsOutsideM(largest[p]);
+      if (!patches_.is_buried(p)) is_kept_[p] = IsOutsideM(largest[p]);
     }
   }
 
@@ -249,7 +189,7 @@ class Assembler {
   void AddCells() {
     int number = 0;
     for (int c = 0; c < cell_count(); ++c) {
-      if (!is_selected_[c] || !is_kept_[patch_[c]]) continue;
+      if (!is_selected_[c] || !IsKept(c)) continue;
       const bool is_along = !cell(c).along.empty();
       const bool is_sheet = is_along && !cell(c).against.empty();
       const Vector3d normal = geometry_.UnitNormal(FacetOf(c));
@@ -283,11 +223,11 @@ class Assembler {
   // that pass are known.
   void AddLonePieces() {
     std::vector<char> is_near_kept(geometry_.point_count(), 0);
-    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
+    for (int i = 0; i < static_cast<int>(complex_.pieces.size()); ++i) {
       if (is_near_[i] && IsNearKept(i)) MarkEnds(i, &is_near_kept);
     }
     std::vector<std::array<int, 3>> planes_of_points;  // point, plane, which way it faces
-    for (std::size_t i = 0; i < complex_.pieces.size(); ++i) {
+    for (int i = 0; i < static_cast<int>(complex_.pieces.size()); ++i) {
       const Piece& piece = complex_.pieces[i];
       if (!is_near_[i] || (is_near_kept[piece.from] && is_near_kept[piece.to])) continue;
       const std::vector<std::array<int, 2>>& planes = PlanesOf(i);
@@ -305,19 +245,21 @@ class Assembler {
     AddLonePoints(std::move(planes_of_points), is_near_kept);
   }
 
-  bool IsNearKept(std::size_t piece) const {
-    const std::span<const int> cells = CellsAt(piece);
-    return std::any_of(cells.begin(), cells.end(), [&](int c) { return is_kept_[patch_[c]] != 0; });
+  bool IsKept(int c) const { return is_kept_[patches_.of(c)] != 0; }
+
+  bool IsNearKept(int piece) const {
+    const std::span<const int> cells = patches_.CellsAt(piece);
+    return std::any_of(cells.begin(), cells.end(), [&](int c) { return IsKept(c); });
   }
 
-  void MarkEnds(std::size_t piece, std::vector<char>* marks) const {
+  void MarkEnds(int piece, std::vector<char>* marks) const {
     (*marks)[complex_.pieces[piece].from] = (*marks)[complex_.pieces[piece].to] = 1;
   }
 
   // The planes of the cells at a piece, by which way they face.
-  const std::vector<std::array<int, 2>>& PlanesOf(std::size_t piece) {
+  const std::vector<std::array<int, 2>>& PlanesOf(int piece) {
     planes_.clear();
-    for (const int c : CellsAt(piece)) {
+    for (const int c : patches_.CellsAt(piece)) {
       const int root = arrangement_.groups[cell(c).group].plane;
       if (!cell(c).along.empty()) planes_.push_back({root, 1});
       if (!cell(c).against.empty()) planes_.push_back({root, 0});
@@ -377,11 +319,9 @@ class Assembler {
   SumGeometry geometry_;
   Arrangement arrangement_;
   CellComplex complex_;
-  std::vector<char> is_near_;                      // pieces: in the ball
-  std::vector<char> is_selected_;                  // cells: meet the ball
-  std::vector<int> first_cell_, cells_at_pieces_;  // where each piece's begin; the cells at it
-  std::vector<int> patch_;
-  std::vector<char> is_buried_;                             // by patch
+  std::vector<char> is_near_;      // pieces: in the ball
+  std::vector<char> is_selected_;  // cells: meet the ball
+  Patches patches_;
   std::vector<char> is_kept_;                               // by patch
   std::vector<std::vector<std::array<int, 3>>> triangles_;  // by cell
   std::vector<std::array<int, 2>> planes_;                  // scratch

@@ -13,6 +13,13 @@ namespace {
 
 using Eigen::Vector3d;
 
+// A point with big numbers and its rounding, in A's frame and true lengths.
+struct Sample {
+  Vector3d rounded;
+  double error;
+  ExactPoint exact;
+};
+
 // The weighted mean of points, exactly, with its rounding.
 Sample MeanOf(SumGeometry* geometry, const std::array<int, 3>& points) {
   Sample sample;
@@ -146,19 +153,6 @@ Verdict Exactly(const MeshPair& pair, const Sample& sample, MembershipCache* cac
 
 }  // namespace
 
-Sample SampleIn(SumGeometry* geometry, const ArrangedFacet& facet,
-                const std::array<int, 3>& triangle) {
-  if (const auto place = TryInFacet(geometry, facet, triangle)) {
-    return MakeExact(geometry, facet, *place);
-  }
-  return MeanOf(geometry, triangle);
-}
-
-Sample SampleBetween(SumGeometry* geometry, int x, int y) {
-  // Thirds are as good as halves.
-  return MeanOf(geometry, {x, y, y});
-}
-
 Verdict VerdictIn(SumGeometry* geometry, const ArrangedFacet& facet,
                   const std::array<int, 3>& triangle, MembershipCache* cache) {
   const MeshPair& pair = geometry->pair();
@@ -172,8 +166,8 @@ Verdict VerdictIn(SumGeometry* geometry, const ArrangedFacet& facet,
 
 Verdict VerdictBetween(SumGeometry* geometry, int x, int y, MembershipCache* cache) {
   const SumPoint &p = geometry->point(x), &q = geometry->point(y);
-  // Within the sum of a third of one error and two of the other; three roundings of numbers below
-  // eight.
+  // A third of the way back: thirds are as good as halves. Within the sum of a third of one error
+  // and two of the other; three roundings of numbers below eight.
   const double error = std::max(p.error, q.error) + 32.0 * kUnit;
   if (error < 0x1p-30) {
     const double scale = geometry->pair().scale();
@@ -181,7 +175,7 @@ Verdict VerdictBetween(SumGeometry* geometry, int x, int y, MembershipCache* cac
     const Verdict verdict = InDoubles(geometry->pair(), middle / scale, error / scale, {}, cache);
     if (verdict != Verdict::kUndecided) return verdict;
   }
-  return Exactly(geometry->pair(), SampleBetween(geometry, x, y), cache);
+  return Exactly(geometry->pair(), MeanOf(geometry, {x, y, y}), cache);
 }
 
 double SquaredArea(const SumGeometry& geometry, const std::array<int, 3>& triangle) {
