@@ -12,56 +12,21 @@
 
 #include "touchstone/core/minkowski/gauss_arrangement_internal.h"
 #include "touchstone/core/minkowski/map_search_internal.h"
+#include "touchstone/core/minkowski/rotation_travel_internal.h"
 #include "touchstone/core/minkowski/support_signs_internal.h"
 
 namespace touchstone {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using internal::MapSearch;
+using internal::RotationTravel;
 using internal::Side;
 using internal::SupportSigns;
 
-// Signs are those of pole . (turn * direction), or of direction . (turn * along). Vectors are
-// within sqrt(3) 2^-51 of exact ones, the turn (a rotation, or its cofactors: three roundings an
-// entry) within 9 2^-52, and the product adds less than 2^-50: 2^-48 in all, as lengths are within
-// 1e-6 of one.
-constexpr double kRounding = 0x1p-47;
-// Entries of a pose from two world poses are off by `error`; cofactors by 2 (2 + 1e-5) of it, as a
-// matrix by three times that.
-constexpr double kPoseFactor = 13.0;
-// Travel is a sum of doubles, each addition off by at most kTravelUnit / 2 up to here; beyond, all
-// is found anew.
-constexpr double kGreatestTravel = 8.0, kTravelUnit = 0x1p-49;
-constexpr double kNever = -1.0;
-// How far round a feature its candidates are listed: so many steps of the present motion, but not
-// so far that lists get long. Motion that would use up a list in a few steps gets none: only what
-// a feature meets.
-constexpr double kStepsOfReach = 16.0, kFewSteps = 8.0;
-constexpr double kLeastReach = 0.02, kGreatestReach = 0.06;
+constexpr double kNever = -1.0;  // before any travel
 
-// At least the 2-norm: the root of the greatest eigenvalue of MᵀM, at most the eighth root of the
-// trace of its fourth power.
-double NormBound(const Matrix3d& matrix) {
-  const double scale = matrix.cwiseAbs().maxCoeff();
-  if (scale == 0.0) return 0.0;
-  const Matrix3d unit = matrix / scale;
-  const Matrix3d squared = unit.transpose() * unit;
-  const Matrix3d fourth = squared * squared;
-  const double trace = (fourth * fourth).trace();
-  return scale * std::pow(trace, 0.125) * (1.0 + 1e-12);
-}
-
-Matrix3d CofactorsOf(const Matrix3d& m) {
-  Matrix3d cofactors;
-  for (int i = 0; i < 3; ++i) {
-    cofactors.row(i) = m.row((i + 1) % 3).cross(m.row((i + 2) % 3));
-  }
-  return cofactors;
-}
-
-// Appends `from` without `without`, both sorted.
+// Calls add for each of `from` that is not in `without`; both sorted.
 template <class T, class Add>
 void ForEachMissing(const std::vector<T>& from, const std::vector<T>& without, const Add& add) {
   auto other = without.begin();
@@ -72,30 +37,6 @@ void ForEachMissing(const std::vector<T>& from, const std::vector<T>& without, c
 }
 
 }  // namespace
-
-MappedMesh::MappedMesh(const TriangleMesh& mesh_in)
-    : mesh(mesh_in),
-      gauss_map(mesh),
-      convex_map(ConvexMap::Conforming(mesh, gauss_map, MapArcs::kConvex)) {
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (gauss_map.vertex_kind(v) == VertexKind::kSpecial) special_vertices.push_back(v);
-  }
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    along.push_back(internal::DirectionOfEdge(mesh, e).unit);
-  }
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    cone_begin.push_back(static_cast<int>(cone_sides.size()));
-    const auto essential = gauss_map.essential_neighbors(v);
-    for (const int h : mesh.vertex_half_edges(v)) {
-      const int e = mesh.edge_of(h);
-      const bool bounds =
-          gauss_map.vertex_kind(v) == VertexKind::kSpecial ||
-          std::find(essential.begin(), essential.end(), mesh.head(h)) != essential.end();
-      if (bounds) cone_sides.push_back(mesh.half_edge_of(e) == h ? along[e] : Vector3d(-along[e]));
-    }
-  }
-  cone_begin.push_back(static_cast<int>(cone_sides.size()));
-}
 
 class DynamicConvolution::State {
  public:
@@ -123,22 +64,7 @@ class DynamicConvolution::State {
     signs_.reset();
     counts_.looked_at = counts_.undecided = 0;
     counts_.regions = counts_.exact_signs = 0;
-    const Matrix3d rotation = pair.pose().rotation();
-    const Matrix3d cofactors = CofactorsOf(rotation);
-    margin_ = kRounding + kPoseFactor * pair.pose().rotation_error();
-    if (rotation_) {
-      const double step =
-          std::max(NormBound(rotation - *rotation_), NormBound(cofactors - *cofactors_));
-      // Rounded, it must not fall short.
-      if (step > 0.0) travel_ += step + kTravelUnit;
-      const double reach = std::clamp(kStepsOfReach * step, kLeastReach, kGreatestReach);
-      reach_ = reach > kFewSteps * step ? reach : 0.0;
-    }
-    if (!rotation_ || !(travel_ < kGreatestTravel)) StartAnew();
-    rotation_ = rotation;
-    cofactors_ = cofactors;
-    turn_directions_ = {-rotation.transpose(), -cofactors};
-    turn_along_ = {cofactors.transpose(), rotation};
+    if (!motion_.GoTo(pair.pose())) StartAnew();
   }
 
   const SumChanges& Update(const MeshPair& pair) {
@@ -148,7 +74,7 @@ class DynamicConvolution::State {
     noted_.dropped.clear();
     noted_.added.clear();
     due_.clear();
-    while (!queue_.empty() && queue_.front().until <= travel_) {
+    while (!queue_.empty() && queue_.front().until <= motion_.travel()) {
       std::pop_heap(queue_.begin(), queue_.end());
       const Entry entry = queue_.back();
       queue_.pop_back();
@@ -169,7 +95,8 @@ class DynamicConvolution::State {
   std::span<const int> VerticesOnFace(int side, int face) {
     const int i = feature_of_face_[side][face];
     const DirectionFeature& feature = directions_[side][i];
-    if (feature.until <= travel_ && feature.pose != pose_) Refresh(side == 0 ? i : FirstOfB() + i);
+    if (feature.until <= motion_.travel() && feature.pose != pose_)
+      Refresh(side == 0 ? i : FirstOfB() + i);
     return feature.vertices;
   }
 
@@ -177,7 +104,7 @@ class DynamicConvolution::State {
   std::span<const SumFacet> FacetsOfEdge(int edge) {
     const int i = feature_of_edge_[edge];
     if (i < 0) return {};
-    if (edges_[i].until <= travel_ && edges_[i].pose != pose_) Refresh(FirstEdge() + i);
+    if (edges_[i].until <= motion_.travel() && edges_[i].pose != pose_) Refresh(FirstEdge() + i);
     return edges_[i].facets;
   }
 
@@ -263,7 +190,6 @@ class DynamicConvolution::State {
   }
 
   void StartAnew() {
-    travel_ = 0.0;
     queue_.clear();
     for (auto& directions : directions_) {
       for (Feature& feature : directions) feature.until = feature.listed_until = kNever;
@@ -276,21 +202,6 @@ class DynamicConvolution::State {
   SupportSigns& signs() {
     if (!signs_) signs_.emplace(*pair_, bodies_[0].gauss_map, bodies_[1].gauss_map);
     return *signs_;
-  }
-
-  // How far the travel may go while a sign keeps whose value was v. Matrices change by no more than
-  // the travel, but for the errors of both poses.
-  double Until(double v) const {
-    const double slack = v - 2.0 * margin_;
-    return slack > 0.0 ? travel_ + slack : travel_;
-  }
-
-  // How far it may go while a list of all that lies within reach_ is complete. The way between the
-  // poses is taken straight from matrix to matrix: cofactors then stray from theirs by at most a
-  // quarter of the square.
-  double ListedUntil() const {
-    const double slack = 0.98 * reach_ - 2.0 * margin_;
-    return slack > 0.0 ? travel_ + slack : travel_;
   }
 
   void Refresh(int feature) {
@@ -325,8 +236,8 @@ class DynamicConvolution::State {
     const auto nearness = [&](int region) { return other.convex_map.middle(region).dot(x); };
     const int start = nearness(feature->region) >= nearness(last) ? feature->region : last;
     MapSearch& search = searches_[side];
-    const double radius = std::max(reach_, 2.0 * margin_);
-    search.FindPoint(x, start, 2.0 * margin_, radius);
+    const double radius = std::max(motion_.reach(), 2.0 * motion_.margin());
+    search.FindPoint(x, start, 2.0 * motion_.margin(), radius);
     counts_.regions += std::ssize(search.regions());
     last_regions_[side] = feature->region = search.regions().front();
     std::vector<int>& candidates = feature->candidates;
@@ -340,24 +251,24 @@ class DynamicConvolution::State {
     }
     std::sort(candidates.begin(), candidates.end());
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-    feature->listed_until = ListedUntil();
+    feature->listed_until = motion_.UntilReached();
   }
 
   void RefreshDirection(int side, DirectionFeature* feature) {
     feature->pose = pose_;
-    const Vector3d x = turn_directions_[side] * bodies_[side].convex_map.direction(feature->face);
-    if (feature->listed_until <= travel_) ListVertices(side, x, feature);
+    const Vector3d x = motion_.directions(side) * bodies_[side].convex_map.direction(feature->face);
+    if (feature->listed_until <= motion_.travel()) ListVertices(side, x, feature);
     feature->until = feature->listed_until;
     found_vertices_.clear();
     bool is_decided = true;
     for (const int v : feature->candidates) {
       const double height = HeightOverCone(bodies_[1 - side], v, x);
       bool supports = height < 0.0;
-      if (std::abs(height) <= 2.0 * margin_) {
+      if (std::abs(height) <= 2.0 * motion_.margin()) {
         is_decided = false;
         supports = signs().FaceVertex(SideOf(side), FacesOf(side, *feature).front(), v);
       }
-      feature->until = std::min(feature->until, Until(std::abs(height)));
+      feature->until = std::min(feature->until, motion_.Until(std::abs(height)));
       if (supports) found_vertices_.push_back(v);
     }
     counts_.undecided += !is_decided;
@@ -382,7 +293,8 @@ class DynamicConvolution::State {
     const auto nearness = [&](int region) { return other.middle(region).dot(p); };
     const int start = nearness(feature->region) >= nearness(last) ? feature->region : last;
     MapSearch& search = searches_[traced_];
-    search.FindArc(p, q, pole, start, 2.0 * margin_, std::max(reach_, 2.0 * margin_));
+    search.FindArc(p, q, pole, start, 2.0 * motion_.margin(),
+                   std::max(motion_.reach(), 2.0 * motion_.margin()));
     counts_.regions += std::ssize(search.regions());
     last_regions_[traced_] = feature->region = search.regions().front();
     std::vector<int>& candidates = feature->candidates;
@@ -393,7 +305,7 @@ class DynamicConvolution::State {
     }
     std::sort(candidates.begin(), candidates.end());
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-    feature->listed_until = ListedUntil();
+    feature->listed_until = motion_.UntilReached();
   }
 
   void RefreshEdge(EdgeFeature* feature) {
@@ -404,10 +316,10 @@ class DynamicConvolution::State {
       return of.convex_map.direction(of.convex_map.face_of_mesh_face(h / 3));
     };
     const int h = body.mesh.half_edge_of(feature->edge);
-    const Vector3d p = turn_directions_[traced_] * normal(body, h);
-    const Vector3d q = turn_directions_[traced_] * normal(body, body.mesh.twin(h));
-    const Vector3d pole = turn_along_[traced_] * body.along[feature->edge];
-    if (feature->listed_until <= travel_) ListEdges(p, q, pole, feature);
+    const Vector3d p = motion_.directions(traced_) * normal(body, h);
+    const Vector3d q = motion_.directions(traced_) * normal(body, body.mesh.twin(h));
+    const Vector3d pole = motion_.along(traced_) * body.along[feature->edge];
+    if (feature->listed_until <= motion_.travel()) ListEdges(p, q, pole, feature);
     feature->until = feature->listed_until;
     found_facets_.clear();
     bool is_decided = true;
@@ -415,10 +327,10 @@ class DynamicConvolution::State {
       const int g = other.mesh.half_edge_of(e);
       const internal::ArcCrossing crossing = internal::CrossingOf(
           p, q, pole, normal(other, g), normal(other, other.mesh.twin(g)), other.along[e]);
-      feature->until = std::min(feature->until, Until(crossing.slack()));
+      feature->until = std::min(feature->until, motion_.Until(crossing.slack()));
       const int edge_a = traced_ == 0 ? feature->edge : e,
                 edge_b = traced_ == 0 ? e : feature->edge;
-      if (crossing.slack() <= 2.0 * margin_) {
+      if (crossing.slack() <= 2.0 * motion_.margin()) {
         is_decided = false;
         if (const auto facet = signs().EdgeEdge(edge_a, edge_b)) found_facets_.push_back(*facet);
       } else if (crossing.to_left > 0.0 || crossing.to_right > 0.0) {
@@ -461,12 +373,7 @@ class DynamicConvolution::State {
   std::vector<Entry> queue_;
   std::vector<int> due_;
   int pose_ = 0;
-  double travel_ = 0.0;  // the sum of the changes of rotation so far
-  double reach_ = kLeastReach;
-  double margin_ = 0.0;  // what a sign's value in doubles may be off by
-  // Directions, and vectors along edges, of either body as the other sees them, B reversed.
-  std::array<Matrix3d, 2> turn_directions_, turn_along_;
-  std::optional<Matrix3d> rotation_, cofactors_;
+  RotationTravel motion_;
   const MeshPair* pair_ = nullptr;
   std::optional<SupportSigns> signs_;
 

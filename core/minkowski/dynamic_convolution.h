@@ -11,31 +11,15 @@
 #ifndef TOUCHSTONE_CORE_MINKOWSKI_DYNAMIC_CONVOLUTION_H_
 #define TOUCHSTONE_CORE_MINKOWSKI_DYNAMIC_CONVOLUTION_H_
 
-#include <Eigen/Core>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "touchstone/core/mesh/mesh_pair.h"
-#include "touchstone/core/minkowski/convex_map.h"
 #include "touchstone/core/minkowski/convolution.h"
-#include "touchstone/core/minkowski/gauss_map.h"
+#include "touchstone/core/minkowski/mapped_mesh.h"
 
 namespace touchstone {
-
-// Made once for a mesh; a copy is cheap.
-struct MappedMesh {
-  explicit MappedMesh(const TriangleMesh& mesh);
-
-  TriangleMesh mesh;
-  GaussMap gauss_map;
-  ConvexMap convex_map;               // conforming, of convex arcs
-  std::vector<int> special_vertices;  // of kind kSpecial
-  // Unit vectors, each coordinate within 2^-51: by edge, as its half-edge runs; and from each
-  // vertex to the neighbours that bound its cone.
-  std::vector<Eigen::Vector3d> along, cone_sides;
-  std::vector<int> cone_begin;
-};
 
 // What an update did. Whatever was there before and is not dropped is kept. Sorted.
 struct SumChanges {

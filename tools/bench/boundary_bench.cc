@@ -11,6 +11,7 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "touchstone/core/mesh/membership.h"
@@ -34,27 +35,60 @@ double Quantile(std::vector<double> values, double part) {
   return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
 }
 
-BoundaryRow TimeScene(const std::string& name, const Shape& shape_a, const Shape& shape_b,
-                      const BoundaryBenchOptions& options) {
-  const TriangleMesh a = MustBuild(shape_a), b = MustBuild(shape_b);
-  BoundaryRow row{name, a.face_count(), b.face_count()};
-  Random random("boundary_bench", options.seed, 0);
-  std::vector<double> times;
-  for (int turn = 0; turn < options.rotations; ++turn) {
-    const RelativePose pose = *RelativePose::Make(random.Rotation(), Vector3d::Zero());
-    const double begin = ProcessorSeconds();
-    const SumBoundary boundary = BuildSumBoundary(MeshPair(a, b, pose), GaussMap(a), GaussMap(b));
-    times.push_back(ProcessorSeconds() - begin);
-    row.facets = std::ssize(boundary.facets);
-    row.crossings = boundary.crossings;
-    row.cells = boundary.cells;
-    row.memberships = boundary.memberships;
-    row.exact_signs = boundary.exact_signs;
-    row.triangles = std::ssize(boundary.triangles);
-    row.components = std::ssize(boundary.components);
+// One scene at the same rotations time and again.
+class TimedScene {
+ public:
+  TimedScene(const std::string& name, const Shape& a, const Shape& b,
+             const BoundaryBenchOptions& options)
+      : a_(MustBuild(a)), b_(MustBuild(b)), row_{name, a_.face_count(), b_.face_count()} {
+    Random random("boundary_bench", options.seed, 0);
+    for (int turn = 0; turn < options.rotations; ++turn) {
+      poses_.push_back(*RelativePose::Make(random.Rotation(), Vector3d::Zero()));
+    }
+    least_.assign(poses_.size(), std::numeric_limits<double>::infinity());
   }
-  row.median_seconds = Quantile(times, 0.5);
-  return row;
+
+  void Time(int turn) {
+    const double begin = ProcessorSeconds();
+    const SumBoundary boundary =
+        BuildSumBoundary(MeshPair(a_, b_, poses_[turn]), GaussMap(a_), GaussMap(b_));
+    const double seconds = ProcessorSeconds() - begin;
+    row_.facets = std::ssize(boundary.facets);
+    row_.crossings = boundary.crossings;
+    row_.cells = boundary.cells;
+    row_.memberships = boundary.memberships;
+    row_.exact_signs = boundary.exact_signs;
+    row_.triangles = std::ssize(boundary.triangles);
+    row_.components = std::ssize(boundary.components);
+    if (least_[turn] == std::numeric_limits<double>::infinity()) {
+      row_.mean_facets += static_cast<double>(row_.facets) / static_cast<double>(poses_.size());
+    }
+    least_[turn] = std::min(least_[turn], seconds);
+  }
+
+  BoundaryRow Row() const {
+    BoundaryRow row = row_;
+    row.median_seconds = Quantile(least_, 0.5);
+    return row;
+  }
+
+ private:
+  TriangleMesh a_, b_;
+  BoundaryRow row_;
+  std::vector<RelativePose> poses_;
+  std::vector<double> least_;  // seconds, by turn
+};
+
+std::vector<BoundaryRow> TimeInTurns(std::vector<TimedScene> scenes,
+                                     const BoundaryBenchOptions& options) {
+  for (int repeat = 0; repeat < options.repeats; ++repeat) {
+    for (int turn = 0; turn < options.rotations; ++turn) {
+      for (TimedScene& scene : scenes) scene.Time(turn);
+    }
+  }
+  std::vector<BoundaryRow> rows;
+  for (const TimedScene& scene : scenes) rows.push_back(scene.Row());
+  return rows;
 }
 
 // What a child tells its parent.
@@ -98,9 +132,34 @@ struct NefPair {
   int faces_a, faces_b;
 };
 
-std::vector<NefPair> NefPairs(bool quick) {
+// Every two shapes, a shape with itself included, those with the least product of faces first.
+std::vector<NefPair> AllNefPairs() {
+  const std::vector<std::pair<std::string, int>> small = {
+      {"box", 0},     {"key", 0},    {"l", 0},     {"u", 0},      {"slot", 0},   {"pocket", 0},
+      {"hollow", 0},  {"axes", 0},   {"star", 0},  {"cone", 16},  {"torus", 32}, {"tori", 48},
+      {"dimpled", 0}, {"spiked", 0}, {"fish", 48}, {"spoon", 48}, {"cup", 64},   {"gear", 96}};
+  std::vector<std::pair<long, NefPair>> sized;
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    for (std::size_t j = i; j < small.size(); ++j) {
+      const auto& [a, faces_a] = small[i];
+      const auto& [b, faces_b] = small[j];
+      const auto count = [](const std::string& name, int faces) {
+        return static_cast<long>(NamedShape(name, faces).faces.size());
+      };
+      sized.push_back({count(a, faces_a) * count(b, faces_b), {a, b, faces_a, faces_b}});
+    }
+  }
+  std::stable_sort(sized.begin(), sized.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
+  std::vector<NefPair> pairs;
+  for (const auto& [product, pair] : sized) pairs.push_back(pair);
+  return pairs;
+}
+
+std::vector<NefPair> ListNefPairs(NefPairs which) {
+  if (which == NefPairs::kAll) return AllNefPairs();
   std::vector<NefPair> pairs = {{"box", "box", 0, 0}, {"u", "key", 0, 0}, {"hollow", "box", 0, 0}};
-  if (quick) return pairs;
+  if (which == NefPairs::kFew) return pairs;
   const std::vector<NefPair> more = {
       {"pocket", "key", 0, 0},   {"slot", "key", 0, 0},       {"l", "u", 0, 0},
       {"axes", "box", 0, 0},     {"axes", "axes", 0, 0},      {"star", "box", 0, 0},
@@ -166,30 +225,33 @@ MembershipRow TimePair(const std::string& name, const TriangleMesh& a, const Tri
 }  // namespace
 
 std::vector<BoundaryRow> TimePaperScenes(const BoundaryBenchOptions& options) {
-  std::vector<BoundaryRow> rows;
+  std::vector<TimedScene> scenes;
   for (const PaperScene& scene : AllPaperScenes()) {
-    rows.push_back(TimeScene(scene.name, scene.a, scene.b, options));
+    scenes.emplace_back(scene.name, scene.a, scene.b, options);
   }
-  return rows;
+  return TimeInTurns(std::move(scenes), options);
 }
 
 std::vector<BoundaryRow> TimeGrowth(std::span<const int> sizes,
                                     const BoundaryBenchOptions& options) {
-  std::vector<BoundaryRow> rows;
+  std::vector<TimedScene> scenes;
   for (const int size : sizes) {
     const Shape torus = NamedShape("torus", size);
-    rows.push_back(TimeScene("torus-torus", torus, torus, options));
+    scenes.emplace_back("torus-torus", torus, torus, options);
   }
-  return rows;
+  return TimeInTurns(std::move(scenes), options);
 }
 
-double GrowthExponent(std::span<const BoundaryRow> rows) {
-  double n = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0;
+GrowthFit FitGrowth(std::span<const BoundaryRow> rows) {
+  double n = 0.0, sum_x = 0.0, sum_y = 0.0, sum_xx = 0.0, sum_xy = 0.0, sum_yy = 0.0;
   for (const BoundaryRow& row : rows) {
-    const double x = std::log(static_cast<double>(row.facets)), y = std::log(row.median_seconds);
-    n += 1.0, sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y;
+    const double x = std::log(row.mean_facets), y = std::log(row.median_seconds);
+    n += 1.0, sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y, sum_yy += y * y;
   }
-  return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+  const double s_xx = sum_xx - sum_x * sum_x / n, s_xy = sum_xy - sum_x * sum_y / n,
+               s_yy = sum_yy - sum_y * sum_y / n;
+  const double slope = s_xy / s_xx, residue = std::max(0.0, s_yy - slope * s_xy);
+  return {slope, n > 2.0 ? std::sqrt(residue / ((n - 2.0) * s_xx)) : 0.0};
 }
 
 std::optional<double> PeakMemoryOfTori(int faces) {
@@ -213,10 +275,11 @@ std::optional<double> PeakMemoryOfTori(int faces) {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-std::vector<NefRow> CompareWithNef(bool quick, double limit_seconds, std::uint64_t seed) {
+std::vector<NefRow> CompareWithNef(NefPairs pairs, double limit_seconds, std::uint64_t seed,
+                                   const std::function<void(const NefRow&)>& report) {
   std::vector<NefRow> rows;
   Random random("boundary_nef", seed, 0);
-  for (const NefPair& names : NefPairs(quick)) {
+  for (const NefPair& names : ListNefPairs(pairs)) {
     const TriangleMesh a = MustBuild(NamedShape(names.a, names.faces_a)),
                        b = MustBuild(NamedShape(names.b, names.faces_b));
     for (const bool is_turned : {false, true}) {
@@ -228,10 +291,11 @@ std::vector<NefRow> CompareWithNef(bool quick, double limit_seconds, std::uint64
       const double begin = ProcessorSeconds();
       const SumBoundary boundary = BuildSumBoundary(MeshPair(a, b, pose), GaussMap(a), GaussMap(b));
       row.seconds = ProcessorSeconds() - begin;
-      if (const auto report = RunNefInChild(a, b, pose, boundary, limit_seconds)) {
-        row.nef_seconds = report->seconds;
-        row.is_same = report->is_same;
+      if (const auto told = RunNefInChild(a, b, pose, boundary, limit_seconds)) {
+        row.nef_seconds = told->seconds;
+        row.is_same = told->is_same;
       }
+      if (report) report(row);
       rows.push_back(row);
     }
   }

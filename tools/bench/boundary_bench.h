@@ -3,6 +3,7 @@
 #define TOUCHSTONE_TOOLS_BENCH_BOUNDARY_BENCH_H_
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,11 +17,16 @@ struct BoundaryRow {
   int faces_a = 0, faces_b = 0;
   long facets = 0, crossings = 0, cells = 0, memberships = 0, exact_signs = 0;  // of the last turn
   long triangles = 0, components = 0;
-  double median_seconds = 0.0;  // Gauss maps included
+  double mean_facets = 0.0;  // of all turns
+  // Of the turns, each the least of its repeats; Gauss maps included.
+  double median_seconds = 0.0;
 };
 
 struct BoundaryBenchOptions {
   int rotations = 5;
+  // How often each rotation is timed. What else the machine does adds to a time and never takes
+  // from it, so the least is the best. Scenes and rotations take turns.
+  int repeats = 1;
   std::uint64_t seed = 1;
 };
 
@@ -29,8 +35,11 @@ std::vector<BoundaryRow> TimePaperScenes(const BoundaryBenchOptions& options);
 // Torus against torus, by the faces of each.
 std::vector<BoundaryRow> TimeGrowth(std::span<const int> sizes,
                                     const BoundaryBenchOptions& options);
-// The least squares slope of log time against log facets.
-double GrowthExponent(std::span<const BoundaryRow> rows);
+// The least squares slope of log time against log facets, and its standard error.
+struct GrowthFit {
+  double exponent = 0.0, error = 0.0;
+};
+GrowthFit FitGrowth(std::span<const BoundaryRow> rows);
 
 // The greatest memory in use, in bytes, of a process of its own that builds the boundary of two
 // tori of so many faces: program, libraries and meshes included. Nothing if it failed. Ask before
@@ -47,7 +56,13 @@ struct NefRow {
   // the exact one.
   bool is_same = false;
 };
-std::vector<NefRow> CompareWithNef(bool quick, double limit_seconds, std::uint64_t seed);
+enum class NefPairs {
+  kFew,
+  kMany,
+  kAll,  // every two shapes, of few faces, the fewest first: an hour or more
+};
+std::vector<NefRow> CompareWithNef(NefPairs pairs, double limit_seconds, std::uint64_t seed,
+                                   const std::function<void(const NefRow&)>& report = {});
 
 // Membership of translations anywhere in the box of M, cold but for memory.
 struct MembershipRow {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "touchstone/tools/bench/boundary_bench.h"
@@ -17,32 +20,66 @@ namespace touchstone {
 namespace {
 
 struct BoundaryArguments {
-  bool quick = false, json = false;
+  bool quick = false, all_pairs = false, json = false;
   std::uint64_t seed = 1;
+  std::string part = "all";
   std::string markdown, svg, meshes;
 };
 
 struct Results {
   std::optional<double> peak_bytes;
   std::vector<BoundaryRow> scenes, growth;
-  double exponent = 0.0;
+  GrowthFit fit;
   std::vector<NefRow> nef;
   std::vector<MembershipRow> membership;
 };
 
+constexpr std::array<std::string_view, 6> kParts = {"all",    "memory", "scenes",
+                                                    "growth", "nef",    "membership"};
+constexpr double kNefSeconds = 30.0;
+
+bool Wants(const BoundaryArguments& arguments, const char* part) {
+  return arguments.part == "all" || arguments.part == part;
+}
+
+void ShowNef(const NefRow& row) {
+  std::cerr << row.pair << ", " << row.faces_a << " x " << row.faces_b << ": "
+            << ShortDouble(1000.0 * row.seconds) << " ms, Nef ";
+  if (row.nef_seconds) {
+    std::cerr << ShortDouble(*row.nef_seconds) << " s, " << (row.is_same ? "same" : "NOT THE SAME");
+  } else {
+    std::cerr << "over " << kNefSeconds << " s";
+  }
+  std::cerr << '\n';
+}
+
+// Every factor of about the root of two, so that a fit has points enough.
+std::vector<int> GrowthSizes(bool quick) {
+  if (quick) return {250, 500, 1000, 2000, 4000};
+  return {250, 350, 500, 700, 1000, 1400, 2000, 2800, 4000, 5600, 8000};
+}
+
 Results Measure(const BoundaryArguments& arguments) {
   Results results;
-  results.peak_bytes = PeakMemoryOfTori(2000);
-  const BoundaryBenchOptions options{arguments.quick ? 3 : 9, arguments.seed};
-  results.scenes = TimePaperScenes(options);
-  const std::vector<int> sizes = arguments.quick
-                                     ? std::vector<int>{250, 500, 1000, 2000}
-                                     : std::vector<int>{250, 500, 1000, 2000, 4000, 8000};
-  results.growth = TimeGrowth(sizes, options);
-  results.exponent = GrowthExponent(results.growth);
-  results.nef = CompareWithNef(arguments.quick, 30.0, arguments.seed);
-  results.membership =
-      TimeMembership(arguments.meshes, arguments.quick ? 5000 : 50000, arguments.seed);
+  const bool quick = arguments.quick;
+  if (Wants(arguments, "memory")) results.peak_bytes = PeakMemoryOfTori(2000);
+  if (Wants(arguments, "scenes")) {
+    results.scenes = TimePaperScenes({quick ? 3 : 9, quick ? 1 : 3, arguments.seed});
+  }
+  if (Wants(arguments, "growth")) {
+    results.growth = TimeGrowth(GrowthSizes(quick), {5, quick ? 3 : 5, arguments.seed});
+    results.fit = FitGrowth(results.growth);
+  }
+  if (Wants(arguments, "nef")) {
+    const NefPairs pairs = arguments.all_pairs ? NefPairs::kAll
+                           : quick             ? NefPairs::kFew
+                                               : NefPairs::kMany;
+    results.nef =
+        CompareWithNef(pairs, kNefSeconds, arguments.seed, arguments.all_pairs ? ShowNef : nullptr);
+  }
+  if (Wants(arguments, "membership")) {
+    results.membership = TimeMembership(arguments.meshes, quick ? 5000 : 50000, arguments.seed);
+  }
   return results;
 }
 
@@ -59,6 +96,7 @@ Json ToJson(const std::vector<BoundaryRow>& rows) {
                     {"exact_signs", row.exact_signs},
                     {"triangles", row.triangles},
                     {"components", row.components},
+                    {"mean_facets", row.mean_facets},
                     {"median_seconds", row.median_seconds}});
   }
   return json;
@@ -86,7 +124,8 @@ Json ToJson(const Results& results) {
   }
   return {{"scenes", ToJson(results.scenes)},
           {"growth", ToJson(results.growth)},
-          {"exponent", results.exponent},
+          {"exponent", results.growth.empty() ? Json() : Json(results.fit.exponent)},
+          {"exponent_error", results.growth.empty() ? Json() : Json(results.fit.error)},
           {"peak_bytes", results.peak_bytes ? Json(*results.peak_bytes) : Json()},
           {"nef", nef},
           {"membership", membership}};
@@ -100,7 +139,7 @@ Table BoundaryTable(const std::vector<BoundaryRow>& rows) {
     table.Row({row.scene, std::to_string(row.faces_a) + " x " + std::to_string(row.faces_b),
                std::to_string(row.facets), std::to_string(row.crossings), std::to_string(row.cells),
                std::to_string(row.memberships), std::to_string(row.exact_signs),
-               std::to_string(row.triangles), Fixed(1000.0 * row.median_seconds, 0)});
+               std::to_string(row.triangles), Fixed(1000.0 * row.median_seconds, 1)});
   }
   return table;
 }
@@ -137,16 +176,23 @@ Table TargetTable(const Results& results) {
     table.Row(
         {"torus x torus, 2000 x 2000, one core", "0.4 s", Fixed(row.median_seconds, 2) + " s"});
   }
-  table.Row({"growth of time in the facets, exponent", "1.15", Fixed(results.exponent, 2)});
-  table.Row({"peak memory of that process", "100 MB",
-             results.peak_bytes ? Fixed(*results.peak_bytes / 1e6, 0) + " MB" : "failed"});
+  if (!results.growth.empty()) {
+    table.Row({"growth of time in the facets, exponent", "1.15",
+               Fixed(results.fit.exponent, 3) + " ± " + Fixed(results.fit.error, 3)});
+  }
+  if (results.peak_bytes) {
+    table.Row(
+        {"peak memory of that process", "100 MB", Fixed(*results.peak_bytes / 1e6, 0) + " MB"});
+  }
   int finished = 0, same = 0;
   for (const NefRow& row : results.nef) {
     finished += row.nef_seconds.has_value();
     same += row.is_same;
   }
-  table.Row({"as by Nef polyhedra", "all that finish in 30 s",
-             std::to_string(same) + " of " + std::to_string(finished)});
+  if (!results.nef.empty()) {
+    table.Row({"as by Nef polyhedra", "all that finish in 30 s",
+               std::to_string(same) + " of " + std::to_string(finished)});
+  }
   for (const MembershipRow& row : results.membership) {
     if (row.pair != "torus-torus") continue;
     table.Row({"membership, 2000 x 2000, mean", "20 µs", Fixed(row.mean_us, 1) + " µs"});
@@ -156,17 +202,19 @@ Table TargetTable(const Results& results) {
 
 void WriteMarkdown(const std::string& folder, const Results& results) {
   PrepareFolder(folder);
-  const auto write = [&](const char* name, const Table& table) {
+  const auto write = [&](const char* name, const auto& rows, const auto& make_table) {
+    if (rows.empty()) return;
     std::ofstream file(folder + '/' + name);
-    table.PrintMarkdown(file);
+    make_table(rows).PrintMarkdown(file);
     file.close();
     if (!file) throw BadInput{"--markdown: " + folder + '/' + name + " cannot be written"};
   };
-  write("bench-boundary.md", BoundaryTable(results.scenes));
-  write("bench-boundary-growth.md", BoundaryTable(results.growth));
-  write("bench-boundary-nef.md", NefTable(results.nef));
-  write("bench-membership.md", MembershipTable(results.membership));
-  write("bench-boundary-targets.md", TargetTable(results));
+  write("bench-boundary.md", results.scenes, BoundaryTable);
+  write("bench-boundary-growth.md", results.growth, BoundaryTable);
+  write("bench-boundary-nef.md", results.nef, NefTable);
+  write("bench-membership.md", results.membership, MembershipTable);
+  std::ofstream targets(folder + "/bench-boundary-targets.md");
+  TargetTable(results).PrintMarkdown(targets);
 }
 
 void WriteFigure(const std::string& folder, const Results& results) {
@@ -174,8 +222,8 @@ void WriteFigure(const std::string& folder, const Results& results) {
   std::ofstream file(folder + "/boundary-growth.csv");
   file << "scene,faces,facets,seconds,exponent\n";
   for (const BoundaryRow& row : results.growth) {
-    file << row.scene << ',' << row.faces_a << ',' << row.facets << ','
-         << ShortDouble(row.median_seconds) << ',' << ShortDouble(results.exponent) << '\n';
+    file << row.scene << ',' << row.faces_a << ',' << ShortDouble(row.mean_facets) << ','
+         << ShortDouble(row.median_seconds) << ',' << ShortDouble(results.fit.exponent) << '\n';
   }
   file.close();
   if (!file) throw BadInput{"--svg: " + folder + " cannot be written"};
@@ -186,20 +234,25 @@ int RunBoundaryCommand(const BoundaryArguments& arguments) {
   if (!arguments.meshes.empty() && !std::filesystem::is_directory(arguments.meshes)) {
     throw BadInput{"--meshes: " + arguments.meshes + " is not a folder"};
   }
+  if (std::find(kParts.begin(), kParts.end(), arguments.part) == kParts.end()) {
+    throw BadInput{"--part: '" + arguments.part +
+                   "' is none of all, memory, scenes, growth, nef, membership"};
+  }
   const Results results = Measure(arguments);
   if (!arguments.markdown.empty()) WriteMarkdown(arguments.markdown, results);
-  if (!arguments.svg.empty()) WriteFigure(arguments.svg, results);
+  if (!arguments.svg.empty() && !results.growth.empty()) WriteFigure(arguments.svg, results);
   if (arguments.json) {
     std::cout << ToJson(results).dump(2) << '\n';
   } else {
-    BoundaryTable(results.scenes).Print(std::cout);
-    std::cout << '\n';
-    BoundaryTable(results.growth).Print(std::cout);
-    std::cout << '\n';
-    NefTable(results.nef).Print(std::cout);
-    std::cout << '\n';
-    MembershipTable(results.membership).Print(std::cout);
-    std::cout << '\n';
+    const auto print = [](const auto& rows, const auto& make_table) {
+      if (rows.empty()) return;
+      make_table(rows).Print(std::cout);
+      std::cout << '\n';
+    };
+    print(results.scenes, BoundaryTable);
+    print(results.growth, BoundaryTable);
+    print(results.nef, NefTable);
+    print(results.membership, MembershipTable);
     TargetTable(results).Print(std::cout);
   }
   for (const NefRow& row : results.nef) {
@@ -216,6 +269,10 @@ void AddBenchBoundary(CLI::App& bench, int& exit_code) {
       "The whole Minkowski boundary and membership: time, growth, memory, Nef polyhedra");
   const auto arguments = std::make_shared<BoundaryArguments>();
   command->add_flag("--quick", arguments->quick, "fewer sizes, rotations and pairs");
+  command->add_option("--part", arguments->part, "memory, scenes, growth, nef, membership, or all")
+      ->capture_default_str();
+  command->add_flag("--all-pairs", arguments->all_pairs,
+                    "against Nef polyhedra: every two shapes, told as they come; an hour or more");
   command->add_option("--seed", arguments->seed, "which rotations")->capture_default_str();
   command->add_option("--meshes", arguments->meshes, "folder of closed meshes for membership");
   command->add_option("--markdown", arguments->markdown, "folder for the tables");

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+//
+// Signs of the points and planes of M: by roundings, by names, by big numbers, in that order.
+#include <algorithm>
+#include <cmath>
+
+#include "touchstone/core/minkowski/bounded_vector_internal.h"
+#include "touchstone/core/minkowski/sum_geometry_internal.h"
+
+namespace touchstone::internal {
+
+using Eigen::Vector3d;
+
+bool SumGeometry::LiesOnByName(const SumPoint& x, int plane) const {
+  const auto is_corner = [&](int vertex) {
+    const auto& corners = planes_[plane].points;
+    return std::find(corners.begin(), corners.end(), vertex) != corners.end();
+  };
+  switch (x.form) {
+    case SumPointForm::kVertex:
+      return is_corner(static_cast<int>(&x - points_.data())) ||
+             (planes_[plane].axis < 0 && IsVertexOfFlatFacet(x, planes_[plane].facet));
+    case SumPointForm::kOnEdge:
+      return Root(x.parts[2]) == Root(plane) || (is_corner(x.parts[0]) && is_corner(x.parts[1]));
+    case SumPointForm::kOfPlanes:
+      return std::any_of(x.parts.begin(), x.parts.end(),
+                         [&](int part) { return Root(part) == Root(plane); });
+  }
+  return false;
+}
+
+// A vertex of a face coplanar with the one that names the facet, against the same other vertex.
+bool SumGeometry::IsVertexOfFlatFacet(const SumPoint& x, const SumFacet& facet) const {
+  const auto is_on = [](const TriangleMesh& mesh, int vertex, int face) {
+    const auto ring = mesh.vertex_half_edges(vertex);
+    return std::any_of(ring.begin(), ring.end(), [&](int h) {
+      return mesh.facet_of_face(TriangleMesh::face_of(h)) == mesh.facet_of_face(face);
+    });
+  };
+  if (facet.kind == SumFacetKind::kFaceVertex) {
+    return x.parts[1] == facet.b && is_on(pair_.a().mesh, x.parts[0], facet.a);
+  }
+  return facet.kind == SumFacetKind::kVertexFace && x.parts[0] == facet.a &&
+         is_on(pair_.b().mesh, x.parts[1], facet.b);
+}
+
+// The apex of a face beside the one that names the facet, against the same other vertex: the edge's
+// kind says on which side it lies, whatever the pose. Where flat polygons were cut and rounded,
+// that is what doubles cannot tell.
+std::optional<int> SumGeometry::SideOfNeighbor(const SumPoint& x, int plane) const {
+  const SumPlane& own = planes_[plane];
+  if (x.form != SumPointForm::kVertex || own.axis >= 0 ||
+      own.facet.kind == SumFacetKind::kEdgeEdge) {
+    return std::nullopt;
+  }
+  const bool is_of_a = own.facet.kind == SumFacetKind::kFaceVertex;
+  if (is_of_a ? x.parts[1] != own.facet.b : x.parts[0] != own.facet.a) return std::nullopt;
+  const TriangleMesh& mesh = is_of_a ? pair_.a().mesh : pair_.b().mesh;
+  const int face = is_of_a ? own.facet.a : own.facet.b;
+  const int vertex = x.parts[is_of_a ? 0 : 1];
+  for (int h = 3 * face; h < 3 * face + 3; ++h) {
+    if (mesh.apex(mesh.twin(h)) != vertex) continue;
+    switch (mesh.edge_kind(mesh.edge_of(h))) {
+      case EdgeKind::kConvex:
+        return -1;
+      case EdgeKind::kFlat:
+        return 0;
+      case EdgeKind::kReflex:
+        return 1;
+    }
+  }
+  return std::nullopt;
+}
+
+int SumGeometry::Side(int point, int plane) {
+  const SumPoint& x = points_[point];
+  const int sign = TriageSign(Height(x, planes_[plane]));
+  if (sign != 0 || LiesOnByName(x, plane)) return sign;
+  if (const auto side = SideOfNeighbor(x, plane)) return *side;
+  ++exact_count_;
+  const ExactPoint& at = Exact(point);
+  const ExactPlane& exact = ExactPlaneOf(plane);
+  return (Dot(exact.normal, at.coordinates) - exact.offset * at.denominator).sign();
+}
+
+int SumGeometry::Compare(int x, int y, int axis) {
+  if (x == y) return 0;
+  const SumPoint &p = points_[x], &q = points_[y];
+  const double difference = p.rounded[axis] - q.rounded[axis];
+  const int sign = SignOf(difference, 1.01 * (p.error + q.error + kUnit * std::abs(difference)));
+  if (sign != 0) return sign;
+  if (p.form == SumPointForm::kVertex && q.form == SumPointForm::kVertex &&
+      p.parts[1] == q.parts[1]) {
+    // A's coordinates are the doubles given.
+    const TriangleMesh& a = pair_.a().mesh;
+    const double u = a.vertex(p.parts[0])[axis], v = a.vertex(q.parts[0])[axis];
+    return u > v ? 1 : u < v ? -1 : 0;
+  }
+  ++exact_count_;
+  const ExactPoint &a = Exact(x), &b = Exact(y);
+  return (a.coordinates[axis] * b.denominator - b.coordinates[axis] * a.denominator).sign();
+}
+
+bool SumGeometry::AreEqual(int x, int y) {
+  return Compare(x, y, 0) == 0 && Compare(x, y, 1) == 0 && Compare(x, y, 2) == 0;
+}
+
+int SumGeometry::TriageTurn(const SumPoint& x, const SumPoint& y, const SumPoint& z, int axis) {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const double u0 = y.rounded[i] - x.rounded[i], u1 = y.rounded[j] - x.rounded[j];
+  const double v0 = z.rounded[i] - x.rounded[i], v1 = z.rounded[j] - x.rounded[j];
+  const double left = u0 * v1, right = u1 * v0;
+  const double u_error = x.error + y.error, v_error = x.error + z.error;
+  // Two roundings on each path after those of the differences, and the data.
+  const double error = 1.01 * (4.1 * kUnit * (std::abs(left) + std::abs(right)) +
+                               u_error * (std::abs(v0) + std::abs(v1)) +
+                               v_error * (std::abs(u0) + std::abs(u1)) + 2.0 * u_error * v_error) +
+                       kUnderflow;
+  return SignOf(left - right, error);
+}
+
+// By their names: the ends of an edge of M, and points on it.
+bool SumGeometry::LieOnOneEdge(const std::array<int, 3>& points) const {
+  const auto on_edge = std::find_if(points.begin(), points.end(), [&](int x) {
+    return points_[x].form == SumPointForm::kOnEdge;
+  });
+  if (on_edge == points.end()) return false;
+  const auto& [u, v, plane] = points_[*on_edge].parts;
+  return std::all_of(points.begin(), points.end(), [&, u = u, v = v](int x) {
+    const SumPoint& own = points_[x];
+    return x == u || x == v ||
+           (own.form == SumPointForm::kOnEdge && own.parts[0] == u && own.parts[1] == v);
+  });
+}
+
+int SumGeometry::Turn(int x, int y, int z, int axis) {
+  if (x == y || y == z || z == x) return 0;
+  const int sign = TriageTurn(points_[x], points_[y], points_[z], axis);
+  if (sign != 0 || LieOnOneEdge({x, y, z})) return sign;
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  ++exact_count_;
+  const ExactPoint &a = Exact(x), &b = Exact(y), &c = Exact(z);
+  const auto row = [&](const ExactPoint& at) {
+    return DyadicVector{at.coordinates[i], at.coordinates[j], at.denominator};
+  };
+  return Determinant(row(a), row(b), row(c)).sign();
+}
+
+int SumGeometry::NormalsDeterminant(int p, int q, int r) {
+  const SumPlane &a = planes_[p], &b = planes_[q], &c = planes_[r];
+  const BoundedVector bc = CrossOf(b.normal, b.normal_error, c.normal, c.normal_error);
+  const int sign = TriageSign(HeightAlong(a.normal, a.normal_error, bc.value, bc.error));
+  if (sign != 0) return sign;
+  const int roots[] = {Root(p), Root(q), Root(r)};
+  if (roots[0] == roots[1] || roots[1] == roots[2] || roots[2] == roots[0]) return 0;
+  ++exact_count_;
+  return Determinant(ExactPlaneOf(p).normal, ExactPlaneOf(q).normal, ExactPlaneOf(r).normal).sign();
+}
+
+int SumGeometry::NormalsAgree(int p, int q) {
+  const SumPlane &a = planes_[p], &b = planes_[q];
+  const int sign = TriageSign(HeightAlong(a.normal, a.normal_error, b.normal, b.normal_error));
+  if (sign != 0) return sign;
+  ++exact_count_;
+  return Dot(ExactPlaneOf(p).normal, ExactPlaneOf(q).normal).sign();
+}
+
+int SumGeometry::LineAlong(int p, int q, int axis) {
+  const SumPlane &a = planes_[p], &b = planes_[q];
+  const BoundedVector cross = CrossOf(a.normal, a.normal_error, b.normal, b.normal_error);
+  const int sign = SignOf(cross.value[axis], cross.error);
+  if (sign != 0) return sign;
+  ++exact_count_;
+  return Cross(ExactPlaneOf(p).normal, ExactPlaneOf(q).normal)[axis].sign();
+}
+
+int SumGeometry::LineAxis(int p, int q) {
+  const SumPlane &a = planes_[p], &b = planes_[q];
+  const BoundedVector cross = CrossOf(a.normal, a.normal_error, b.normal, b.normal_error);
+  int axis = 0;
+  if (cross.value.cwiseAbs().maxCoeff(&axis) > cross.error) return axis;
+  for (axis = 0; axis < 3; ++axis) {
+    if (LineAlong(p, q, axis) != 0) return axis;
+  }
+  return -1;
+}
+
+int SumGeometry::NormalAxis(int plane) {
+  int axis = 0;
+  if (planes_[plane].normal.cwiseAbs().maxCoeff(&axis) > planes_[plane].normal_error) return axis;
+  for (axis = 0; axis < 2; ++axis) {
+    if (NormalAlong(plane, axis) != 0) return axis;
+  }
+  return axis;
+}
+
+int SumGeometry::NormalAlong(int plane, int axis) {
+  const int sign = SignOf(planes_[plane].normal[axis], planes_[plane].normal_error);
+  if (sign != 0) return sign;
+  ++exact_count_;
+  return ExactPlaneOf(plane).normal[axis].sign();
+}
+
+}  // namespace touchstone::internal
