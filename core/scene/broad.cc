@@ -177,9 +177,9 @@ void Scene::Data::Wire(int pair) {
     kept.is_fresh = true;
     kept.distance_limit = -kInfinity;
     // A continuous depth goes on where the pair goes on.
-    auto continuous_depth = std::move(kept.found.continuous_depth);
-    kept.found = {};
-    if (wanted.cpd && !is_new) kept.found.continuous_depth = std::move(continuous_depth);
+    PairNumbers::Found found;
+    if (wanted.cpd && !is_new) found.continuous_depth.swap(kept.found.continuous_depth);
+    kept.found = std::move(found);
   }
   pairs.limit(pair) = -kInfinity;
 }
