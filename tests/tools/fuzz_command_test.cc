@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/types.h>
+#include <signal.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -10,6 +10,8 @@
 #include <thread>
 
 #include "touchstone/tests/tools/program.h"
+#include "touchstone/tools/bad_input.h"
+#include "touchstone/tools/campaign/store.h"
 
 namespace touchstone {
 namespace {
@@ -23,8 +25,25 @@ nlohmann::json Totals(const ProgramRun& run) {
   return json;
 }
 
+// Two suites of twenty batches.
 constexpr const char* kCommand =
-    "fuzz --suites grid,ties --engines portal,phased --count 2000 --json ";
+    "fuzz --suites grid,ties --engines portal,phased --count 9600 --json ";
+
+// How many batches the campaign in `folder` has stored.
+std::size_t Stored(const std::string& folder) {
+  try {
+    const CampaignStore store(folder);
+    return store.Done("grid").size() + store.Done("ties").size();
+  } catch (const BadInput&) {
+    return 0;  // not there yet
+  }
+}
+
+// Returns when the campaign has stored `batches`, or `run` has ended.
+void AwaitBatches(const std::string& folder, std::size_t batches, Background& run) {
+  while (!run.has_ended() && Stored(folder) < batches)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
 
 TEST(FuzzCommand, CountsByEngineAndSuite) {
   const TemporaryFolder folder("fuzz");
@@ -54,16 +73,15 @@ TEST(FuzzCommand, KilledStoppedAndSplitItEndsWithTheSameTotals) {
       RunProgram(std::string(kCommand) + "--threads 1 --out " + folder.path("whole"));
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   // Killed for good and asked to stop, again and again, each time a little later.
-  const std::string command = std::string(kCommand) + "--threads 2 --out " + folder.path("pieces");
-  int interrupted = 0;
+  const std::string out = folder.path("pieces");
+  const std::string command = std::string(kCommand) + "--threads 2 --out " + out;
   for (int i = 0; i < 6; ++i) {
-    const std::string how = i % 2 == 0 ? "timeout -s KILL 0." : "timeout -s TERM 0.";
-    const std::string delay = std::to_string(2 + i);
-    const int status = std::system(
-        (how + delay + " " + TOUCHSTONE_PROGRAM + " " + command + " >/dev/null 2>&1").c_str());
-    interrupted += status != 0;
+    Background run(TOUCHSTONE_PROGRAM + (" " + command) + " >/dev/null 2>&1");
+    AwaitBatches(out, Stored(out) + 1, run);
+    ASSERT_FALSE(run.has_ended());
+    run.Signal(i % 2 == 0 ? SIGKILL : SIGTERM);
+    EXPECT_EQ(run.Wait(), i % 2 == 0 ? 128 + SIGKILL : 0);
   }
-  EXPECT_GT(interrupted, 0);
   const ProgramRun last = RunProgram(command);
   EXPECT_EQ(last.exit_code, 0) << last.err;
   EXPECT_EQ(last.json()["end"], "complete");
@@ -91,11 +109,17 @@ TEST_P(OnRanks, TheTotalsAreThoseOfOneProcess) {
       RunProgram(std::string(kCommand) + "--threads 1 --out " + folder.path("whole"));
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   const std::string launch = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " +
-                             mpiexec + " --oversubscribe -n " + std::to_string(GetParam()) + ' ' +
-                             TOUCHSTONE_PROGRAM + ' ' + kCommand + "--threads 1 --out " +
-                             folder.path("ranks");
+                             mpiexec + " --timeout 300 --oversubscribe -n " +
+                             std::to_string(GetParam()) + ' ' + TOUCHSTONE_PROGRAM + ' ' +
+                             kCommand + "--threads 1 --out " + folder.path("ranks");
   // A job that is killed on the way loses nothing.
-  EXPECT_NE(std::system(("timeout -s KILL 2.5 " + launch + " >/dev/null 2>&1").c_str()), -1);
+  {
+    Background job("env " + launch + " >/dev/null 2>&1");
+    AwaitBatches(folder.path("ranks"), 3, job);
+    ASSERT_FALSE(job.has_ended());
+    job.Signal(SIGKILL);
+    job.Wait();
+  }
   const std::string out = folder.path("out.json");
   const std::string err = folder.path("err");
   EXPECT_EQ(std::system((launch + " >" + out + " 2>" + err).c_str()), 0) << folder.Read("err");
@@ -123,30 +147,25 @@ TEST(FuzzCommand, ALostRankLosesNothing) {
   if (mpiexec.empty()) GTEST_SKIP() << "configured without MPI";
   const TemporaryFolder folder("fuzz");
   const std::string command =
-      "fuzz --suites grid,prisms,tetrahedra --engines portal,phased --count 19200 --seed 5 --json "
+      "fuzz --suites grid,ties --engines portal,phased --count 38400 --seed 5 --json "
       "--threads 1 ";
   const ProgramRun whole = RunProgram(command + "--out " + folder.path("whole"));
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
-  const std::string out = folder.path("ranks");
   for (const std::string option : {"", "--enable-recovery "}) {
-    const std::string launch = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " +
-                               mpiexec + " --oversubscribe " + option + "-n 4 " +
-                               TOUCHSTONE_PROGRAM + ' ' + command + "--silence-seconds 5 --out " +
-                               out + (option.empty() ? "" : "-recovered");
-    const std::string target = out + (option.empty() ? "" : "-recovered");
-    // Once batches are handed out.
-    const std::string script = "(" + launch + " > " + folder.path("json") + " 2> " +
-                               folder.path("err") + "; echo $? > " + folder.path("code") +
-                               ") & for i in $(seq 300); do [ -s " + target +
-                               "/campaign.sqlite ] && break; sleep 0.1; done; sleep 0.3; " +
-                               KillRankTwo(target) + " > " + folder.path("kills") + "; wait";
-    EXPECT_EQ(std::system(script.c_str()), 0);
+    const bool recovers = !option.empty();
+    const std::string out = folder.path(recovers ? "recovered" : "ended");
+    Background job("env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " + mpiexec +
+                   " --timeout 300 --oversubscribe " + option + "-n 4 " + TOUCHSTONE_PROGRAM + ' ' +
+                   command + "--silence-seconds 5 --out " + out + " > " + folder.path("json") +
+                   " 2> " + folder.path("err"));
+    AwaitBatches(out, 6, job);
+    ASSERT_EQ(std::system((KillRankTwo(out) + " > " + folder.path("kills")).c_str()), 0);
     EXPECT_THAT(folder.Read("kills"), HasSubstr("killed"));
-    EXPECT_EQ(folder.Read("code") == "0\n", !option.empty()) << folder.Read("err");
-    if (!option.empty()) {
+    EXPECT_EQ(job.Wait() == 0, recovers) << folder.Read("err");
+    if (recovers) {
       EXPECT_EQ(nlohmann::json::parse(folder.Read("json"))["end"], "complete");
     }
-    EXPECT_TRUE(Totals(RunProgram(command + "--out " + target)) == Totals(whole)) << option;
+    EXPECT_TRUE(Totals(RunProgram(command + "--out " + out)) == Totals(whole)) << option;
   }
 }
 

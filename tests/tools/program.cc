@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/tests/tools/program.h"
 
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,6 +20,10 @@ std::string ReadFile(const fs::path& path) {
   return content.str();
 }
 
+int ExitCodeOf(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
 }  // namespace
 
 ProgramRun RunProgram(const std::string& arguments) {
@@ -28,8 +33,33 @@ ProgramRun RunProgram(const std::string& arguments) {
   const std::string command =
       std::string(TOUCHSTONE_PROGRAM) + " " + arguments + " >" + out + " 2>" + err;
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), ReadFile(out),
-          ReadFile(err)};
+  return {ExitCodeOf(status), ReadFile(out), ReadFile(err)};
+}
+
+Background::Background(const std::string& command) : pid_(fork()) {
+  if (pid_ != 0) return;
+  execl("/bin/sh", "sh", "-c", ("exec " + command).c_str(), nullptr);
+  _exit(127);
+}
+
+Background::~Background() {
+  if (has_ended()) return;
+  Signal(SIGKILL);
+  Wait();
+}
+
+void Background::Signal(int signal) const {
+  if (!ended_) kill(pid_, signal);
+}
+
+bool Background::has_ended() {
+  ended_ = ended_ || waitpid(pid_, &status_, WNOHANG) == pid_;
+  return ended_;
+}
+
+int Background::Wait() {
+  if (!ended_) ended_ = waitpid(pid_, &status_, 0) == pid_;
+  return ExitCodeOf(status_);
 }
 
 TemporaryFolder::TemporaryFolder(std::string_view name) {

@@ -2,6 +2,8 @@
 #ifndef TOUCHSTONE_TESTS_TOOLS_PROGRAM_H_
 #define TOUCHSTONE_TESTS_TOOLS_PROGRAM_H_
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,6 +21,25 @@ struct ProgramRun {
 
 // Runs `touchstone ARGUMENTS` through the shell.
 ProgramRun RunProgram(const std::string& arguments);
+
+// A command of the shell's that runs beside the test; killed when the test leaves it behind.
+class Background {
+ public:
+  explicit Background(const std::string& command);
+  ~Background();
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+
+  void Signal(int signal) const;
+  bool has_ended();
+  // The exit code, or 128 + n when signal n ended it.
+  int Wait();
+
+ private:
+  pid_t pid_;
+  int status_ = 0;
+  bool ended_ = false;
+};
 
 // A folder for one test, empty at first and removed at the end.
 class TemporaryFolder {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Messages between ranks: "free N" once from a rank, how many batches it runs at a time; "alive"
-// now and then; a batch to it; a result from it; "end" to it.
+// now and then; a batch to it; a result from it; "end" to it, or "leave" where a rank is lost.
 #include "touchstone/tools/campaign/cluster.h"
 
 #include <dlfcn.h>
@@ -22,8 +22,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::string_view kEnd = "end", kAlive = "alive", kFree = "free ";
+constexpr std::string_view kEnd = "end", kLeave = "leave", kAlive = "alive", kFree = "free ";
 constexpr double kAliveSeconds = 2.0;
+// A message is a few kilobytes: what is not whole by then never will be.
+constexpr double kMessageSeconds = 10.0;
 // How long a look at one side may keep the other waiting.
 constexpr double kGlance = 0.005;
 
@@ -67,11 +69,14 @@ std::optional<Cluster::Message> Cluster::TryReceive() const {
   const int size = functions_->probe(&message.from);
   if (size < 0) return std::nullopt;
   message.text.resize(static_cast<std::size_t>(size));
-  if (!functions_->receive(message.from, message.text.data(), size)) return std::nullopt;
+  message.is_whole = functions_->receive(message.from, message.text.data(), size, kMessageSeconds);
   return message;
 }
 
-void Cluster::Leave(bool in_order, int exit_code) const { functions_->finish(in_order, exit_code); }
+void Cluster::Leave(bool in_order, int exit_code) const {
+  if (!in_order && rank_ > 0) std::_Exit(exit_code);
+  functions_->finish(in_order, exit_code);
+}
 
 class ClusterWorkers::Impl {
  public:
@@ -121,9 +126,10 @@ class ClusterWorkers::Impl {
   }
 
   bool Dismiss() {
-    bool all_there = true;
+    const bool all_there =
+        std::none_of(ranks_.begin() + 1, ranks_.end(), [](const Rank& r) { return r.gone; });
     for (std::size_t r = 1; r < ranks_.size(); ++r) {
-      all_there &= !ranks_[r].gone && cluster_.Send(static_cast<int>(r), kEnd);
+      if (!ranks_[r].gone) cluster_.Send(static_cast<int>(r), all_there ? kEnd : kLeave);
     }
     return all_there;
   }
@@ -141,6 +147,7 @@ class ClusterWorkers::Impl {
 
   void Take(const Cluster::Message& message, std::vector<BatchResult>& results) {
     Rank& rank = ranks_[static_cast<std::size_t>(message.from)];
+    if (!message.is_whole) return GiveUp(static_cast<std::size_t>(message.from));
     rank.heard = Clock::now();
     if (message.text == kAlive) return;
     if (message.text.starts_with(kFree)) {
@@ -206,13 +213,14 @@ std::vector<BatchResult> ClusterWorkers::Collect(double seconds) { return impl_-
 int ClusterWorkers::Running() const { return impl_->Running(); }
 bool ClusterWorkers::Dismiss() { return impl_->Dismiss(); }
 
-void ServeRank(const Cluster& cluster, Workers& local) {
+bool ServeRank(const Cluster& cluster, Workers& local) {
   cluster.Send(0, std::string(kFree) + std::to_string(local.Free()));
   Clock::time_point said = Clock::now();
   bool ends = false;
   std::vector<Batch> waiting;
   while (!ends || local.Running() > 0 || !waiting.empty()) {
     while (const auto message = cluster.TryReceive()) {
+      if (!message->is_whole || message->text == kLeave) return false;
       if (message->text == kEnd) {
         ends = true;
         continue;
@@ -227,14 +235,15 @@ void ServeRank(const Cluster& cluster, Workers& local) {
       waiting.pop_back();
     }
     for (const BatchResult& result : local.Collect(kGlance)) {
-      if (!cluster.Send(0, ToText(result))) return;
+      if (!cluster.Send(0, ToText(result))) return false;
       said = Clock::now();
     }
     if (SecondsSince(said) > kAliveSeconds) {
-      if (!cluster.Send(0, kAlive)) return;
+      if (!cluster.Send(0, kAlive)) return false;
       said = Clock::now();
     }
   }
+  return true;
 }
 
 }  // namespace touchstone

@@ -28,9 +28,11 @@ class Cluster {
   struct Message {
     int from;
     std::string text;
+    bool is_whole;  // false: its sender went away while it was sent
   };
   std::optional<Message> TryReceive() const;
-  // The last call. Not in order: ends the job, since ranks that are gone would be waited for.
+  // The last call. Not in order, since ranks that are gone would be waited for: rank 0 ends the job,
+  // any other rank ends at once.
   void Leave(bool in_order, int exit_code) const;
 
  private:
@@ -59,8 +61,8 @@ class ClusterWorkers : public Workers {
   std::unique_ptr<Impl> impl_;
 };
 
-// Other ranks: runs what rank 0 sends until it says that all is done.
-void ServeRank(const Cluster& cluster, Workers& local);
+// Other ranks: runs what rank 0 sends until it says that all is done. False where a rank is lost.
+bool ServeRank(const Cluster& cluster, Workers& local);
 
 }  // namespace touchstone
 

@@ -5,6 +5,9 @@
 
 #include <mpi.h>
 
+#include <algorithm>
+#include <memory>
+
 namespace {
 
 constexpr int kTag = 1;
@@ -31,9 +34,23 @@ int Probe(int* rank) {
   return size;
 }
 
-bool Receive(int rank, char* text, int size) {
-  return MPI_Recv(text, size, MPI_CHAR, rank, kTag, MPI_COMM_WORLD, MPI_STATUS_IGNORE) ==
-         MPI_SUCCESS;
+// A long text is fetched from its sender, and MPI_Recv would wait for ever for one that was killed.
+bool Receive(int rank, char* text, int size, double seconds) {
+  auto buffer = std::make_unique<char[]>(static_cast<std::size_t>(size));
+  MPI_Request request;
+  if (MPI_Irecv(buffer.get(), size, MPI_CHAR, rank, kTag, MPI_COMM_WORLD, &request) != MPI_SUCCESS)
+    return false;
+  const double end = MPI_Wtime() + seconds;
+  int is_whole = 0, error = MPI_SUCCESS;
+  do {
+    error = MPI_Test(&request, &is_whole, MPI_STATUS_IGNORE);
+  } while (error == MPI_SUCCESS && is_whole == 0 && MPI_Wtime() < end);
+  if (is_whole != 0) {
+    std::copy_n(buffer.get(), size, text);
+  } else {
+    buffer.release();  // the library may still write there
+  }
+  return error == MPI_SUCCESS && is_whole != 0;
 }
 
 void Finish(bool in_order, int exit_code) {

@@ -16,7 +16,8 @@ struct TouchstoneMpiFunctions {
   bool (*send)(int rank, const char* text, int size);
   // The size of a message that waits and where it comes from, or -1.
   int (*probe)(int* rank);
-  bool (*receive)(int rank, char* text, int size);
+  // False when it is not whole after `seconds`: who began it is gone.
+  bool (*receive)(int rank, char* text, int size, double seconds);
   // Leaves the job: in order, or, where a rank is gone, by ending all with `exit_code`.
   void (*finish)(bool in_order, int exit_code);
 };

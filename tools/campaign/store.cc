@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/tools/campaign/store.h"
 
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 #include <system_error>
+#include <thread>
 
 #include "touchstone/tools/bad_input.h"
 #include "touchstone/tools/numbers.h"
@@ -25,6 +32,10 @@ constexpr const char* kSchema = R"(
   CREATE TABLE IF NOT EXISTS finding(engine TEXT, suite TEXT, idx INTEGER, kind TEXT, detail TEXT,
     case_file TEXT NOT NULL DEFAULT '');
 )";
+
+// How long a predecessor that was killed may take to be gone.
+constexpr std::chrono::milliseconds kLockPause(50);
+constexpr int kLockTries = 400;
 
 std::string Joined(const std::vector<std::string>& words) {
   std::string all;
@@ -76,11 +87,34 @@ std::uint64_t Count(sqlite3_stmt* row, int column) {
 
 }  // namespace
 
+// The system gives it up with the process that holds it, however that ends.
+class CampaignStore::Lock {
+ public:
+  explicit Lock(const std::string& folder)
+      : file_(open((folder + "/campaign.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    if (file_ < 0) throw BadInput{folder + "/campaign.lock: " + std::strerror(errno)};
+    for (int i = 0; flock(file_, LOCK_EX | LOCK_NB) != 0; ++i) {
+      if (errno != EWOULDBLOCK || i == kLockTries) {
+        close(file_);
+        throw BadInput{folder + ": another process works on this campaign"};
+      }
+      std::this_thread::sleep_for(kLockPause);
+    }
+  }
+  ~Lock() { close(file_); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int file_;
+};
+
 CampaignStore::CampaignStore(const std::string& folder, const CampaignPlan& plan) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!std::filesystem::is_directory(folder))
     throw BadInput{"--out: " + folder + " is not a folder and cannot be made one"};
+  lock_ = std::make_unique<Lock>(folder);
   Open(folder, true);
   Run(kSchema);
   Run("BEGIN IMMEDIATE");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,8 +34,10 @@ struct StoredFinding {
 //   finding(engine, suite, idx, kind, detail, case_file)                      one row a finding
 //
 // Batches are transactions: whatever ends the program, each is there whole or not at all, and the
-// tallies are the sums over those that are. Throws BadInput, naming the file, where the data base
-// cannot be opened or belongs to another plan.
+// tallies are the sums over those that are. One process at a time adds to it: a job that was killed
+// may store for a moment longer than its successor takes to start, which then waits for it. Throws
+// BadInput, naming the file, where the data base cannot be opened, belongs to another plan, or is
+// worked on by somebody else for longer than that.
 class CampaignStore {
  public:
   // Creates folder and data base where they are missing.
@@ -67,6 +70,10 @@ class CampaignStore {
   using Row = std::function<void(sqlite3_stmt*)>;
   void Query(const std::string& sql, const std::vector<std::string>& values, const Row& row) const;
 
+  // Held while it lives.
+  class Lock;
+
+  std::unique_ptr<Lock> lock_;  // of who may add
   std::string path_;
   sqlite3* db_ = nullptr;
 };

@@ -221,8 +221,9 @@ int RunFuzz(const Arguments& arguments) {
   if (!Cluster::IsJob()) return RunHere(arguments, plan, limits, *local);
   const std::unique_ptr<Cluster> cluster = Cluster::Join();
   if (cluster->rank() > 0) {
-    ServeRank(*cluster, *local);
-    cluster->Leave(true, kFine);
+    const bool in_order = ServeRank(*cluster, *local);
+    local.reset();  // its processes end with it
+    cluster->Leave(in_order, kFine);
     return kFine;
   }
   ClusterWorkers workers(*cluster, std::move(local), arguments.silence_seconds);
