@@ -3,7 +3,7 @@
 
 packages=(g++ cmake ninja-build libeigen3-dev libboost-dev libcgal-dev libgmp-dev libmpfr-dev
           libcli11-dev nlohmann-json3-dev libgtest-dev libgmock-dev libtbb-dev libsqlite3-dev libopenmpi-dev openmpi-bin
-          libccd-dev libfcl-dev libbullet-dev)
+          libccd-dev libfcl-dev libbullet-dev libode-dev)
 mesh_package=libcgal-demo
 # What tools/fuzzers compiles with.
 fuzzer_packages=(clang libclang-rt-14-dev)

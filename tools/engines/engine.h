@@ -97,6 +97,8 @@ struct EngineDescription {
   bool proven = false;
   // Inputs are rounded to float: what it is asked is the question only where floats hold it.
   bool single_precision = false;
+  // Looks at all pairs of features: the benchmarks time it only when it is named.
+  bool quadratic = false;
   // Why the engine cannot run (a package missing at configuration), or empty.
   std::string unavailable;
   std::unique_ptr<Engine> (*make)(double tolerance) = nullptr;

@@ -40,6 +40,11 @@ std::vector<EngineDescription> AllEngines() {
 #else
   DescribeMissing(engines, "bullet-f32", "libbullet-dev");
 #endif
+#ifdef TOUCHSTONE_HAS_ODE
+  DescribeOde(engines);
+#else
+  DescribeMissing(engines, "ode", "libode-dev");
+#endif
   return engines;
 }
 

@@ -19,6 +19,7 @@ void DescribeLibccd(std::vector<EngineDescription>& engines);
 void DescribeFcl(std::vector<EngineDescription>& engines);
 void DescribeBulletF64(std::vector<EngineDescription>& engines);
 void DescribeBulletF32(std::vector<EngineDescription>& engines);
+void DescribeOde(std::vector<EngineDescription>& engines);
 
 }  // namespace touchstone
 

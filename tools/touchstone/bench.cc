@@ -29,7 +29,7 @@ std::vector<EngineDescription> SelectEngines(const std::vector<std::string>& nam
   if (!names.empty()) return selected;
   for (const EngineDescription& engine : all) {
     if (engine.unavailable.empty()) {
-      if (!engine.single_precision) selected.push_back(engine);
+      if (!engine.single_precision && !engine.quadratic) selected.push_back(engine);
     } else {
       std::cerr << "touchstone: engine " << engine.name << " left out: " << engine.unavailable
                 << '\n';
