@@ -24,6 +24,8 @@ class CampaignTotals {
   // One row an engine and suite, engines in the order of the plan.
   const std::vector<Row>& rows() const { return rows_; }
   const std::vector<std::string>& engines() const { return engines_; }
+  // Counts by suite, in the order of the plan, by "engine key" with a tab between.
+  const std::vector<std::pair<std::string, Tally>>& by_suite() const { return by_suite_; }
   // The sum over suites.
   std::uint64_t Of(const std::string& engine, std::string_view key) const;
   // Sums over suites of all keys of an engine that begin with `prefix`, less the prefix.

@@ -79,6 +79,52 @@ Section ByKind(const CampaignTotals& totals) {
   return section;
 }
 
+// What was counted of portal and phased together under `key`, a suite or all.
+std::uint64_t OfProven(const Tally& tally, std::string_view key) {
+  std::uint64_t sum = 0;
+  for (const char* engine : {"portal\t", "phased\t"}) sum += At(tally, engine + std::string(key));
+  return sum;
+}
+
+// The same over the combinations whose last word, the tier, is `tier`.
+std::uint64_t OfTier(const Tally& tally, const std::string& tier) {
+  std::uint64_t sum = 0;
+  for (const char* engine : {"portal\t", "phased\t"}) {
+    const std::string start = engine + std::string(keys::kCoverage);
+    for (auto it = tally.lower_bound(start); it != tally.end() && it->first.starts_with(start);
+         ++it) {
+      if (it->first.ends_with(' ' + tier)) sum += it->second;
+    }
+  }
+  return sum;
+}
+
+Section Judged(const CampaignTotals& totals) {
+  static constexpr std::array<std::string_view, 7> kAsked = {
+      keys::kQueries, "exact touch",          "gap < 1e-12", "n >= 100",
+      "n >= 1000",    "phase maxima checked", "constructed"};
+  Section section("Judged in the proven searches by suite",
+                  {"suite", "queries", "touch", "gap < 1e-12", "n >= 100", "n >= 1000", "maxima",
+                   "M whole", "by bound", "by scan", "exact", "wrong", "unresolved", "findings"});
+  const auto add = [&](const std::string& suite, const Tally& tally) {
+    std::vector<std::string> row = {suite};
+    for (const std::string_view key : kAsked) row.push_back(std::to_string(OfProven(tally, key)));
+    for (const char* tier : {"bound", "scan", "exact"})
+      row.push_back(std::to_string(OfTier(tally, tier)));
+    for (const std::string_view key : {keys::kWrong, keys::kUnresolved, keys::kFindings})
+      row.push_back(std::to_string(OfProven(tally, key)));
+    section.Row(row);
+  };
+  Tally all;
+  for (const auto& [suite, tally] : totals.by_suite()) {
+    if (OfProven(tally, keys::kQueries) == 0) continue;
+    add(suite, tally);
+    for (const auto& [key, count] : tally) all[key] += count;
+  }
+  if (!all.empty()) add("all", all);
+  return section;
+}
+
 Section BySuite(const CampaignTotals& totals) {
   Section section("Wrong verdicts by suite",
                   {"engine", "suite", "queries", "wrong", "unresolved", "findings"});
@@ -139,6 +185,7 @@ void ReportStability(const CampaignTotals& totals, const std::string& folder, bo
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   const std::vector<std::pair<std::string, Section>> sections = {
+      {"judged", Judged(totals)},
       {"kinds", ByKind(totals)},
       {"suites", BySuite(totals)},
       {"travel", ByClass(totals, "Wrong verdicts by signed travel from contact, over the size",
