@@ -28,7 +28,8 @@ ConvexPolyhedron Clustered(Random& random) {
               near[c] = StepUlp(near[c], point[c] > 0.0, 1.0);
           }
         } else {
-          near += random.Pick(kSteps) * random.SpherePoint();
+          const Eigen::Vector3d direction = random.SpherePoint();
+          near += random.Pick(kSteps) * direction;
         }
         points.push_back(near);
       }

@@ -49,7 +49,8 @@ class NestedSuite : public Suite {
  private:
   // A rotation by next to nothing about a random axis, to first order.
   static Eigen::Matrix3d SmallTurn(Random& random) {
-    const Eigen::Vector3d w = random.Pick(kTurns) * 0.1 * random.SpherePoint();
+    const Eigen::Vector3d axis = random.SpherePoint();
+    const Eigen::Vector3d w = random.Pick(kTurns) * 0.1 * axis;
     Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
     // To second order, so that the largest is orthonormal to 1e-9.
     const double half = 0.5 * PlainDot(w, w);

@@ -105,7 +105,8 @@ class TouchSuite : public Suite {
             style);
       case 1: {
         const std::vector<Eigen::Vector2d> polygon = LatticePolygon(random, random.Integer(3, 12));
-        return PrismBody(polygon, random.Integer(1, 40), random.OneIn(2), style);
+        const bool anti = random.OneIn(2);
+        return PrismBody(polygon, random.Integer(1, 40), anti, style);
       }
       case 2: {
         const std::vector<Eigen::Vector2d> polygon = LatticePolygon(random, random.Integer(3, 30));
