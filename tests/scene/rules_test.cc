@@ -296,6 +296,27 @@ TEST(Rules, TouchesOnALattice) {
   EXPECT_GT(touches, 250);  // measured 315
 }
 
+// A pair whose numbers are wanted from afar, and no verdict.
+void SubscribeFarPair(Worlds& worlds, BodyHandle a, BodyHandle b) {
+  Subscriptions pair;
+  pair.verdict = false;
+  pair.distance = 100.0;
+  pair.travel = Subscriptions::Travel{{1, 0, 0}, 50.0};
+  worlds.ForAll([&](Scene& scene) { return scene.SubscribePair(a, b, pair).ok(); });
+}
+
+// Three of four bodies a little, one of sixty to anywhere within `extent`.
+void MoveMost(Random& random, Worlds& worlds, const std::vector<BodyHandle>& bodies,
+              double extent) {
+  for (const BodyHandle body : bodies) {
+    if (random.Int(0, 3) == 0) continue;
+    const WorldPose pose = random.Int(0, 60) == 0
+                               ? RandomPose(random, extent)
+                               : Nudged(random, worlds.scene(0).pose(body), 0.03, 0.03);
+    worlds.ForAll([&](Scene& scene) { return scene.Move(body, pose).ok(); });
+  }
+}
+
 // Distances, depths and travels beside verdicts, by body and by pair.
 TEST(Rules, NumbersStayWithinTheirBounds) {
   std::printf("seed 7\n");
@@ -314,20 +335,10 @@ TEST(Rules, NumbersStayWithinTheirBounds) {
     const SceneShape& shape = shapes[i % shapes.size()];
     bodies.push_back(worlds.ForAll([&](Scene& scene) { return *scene.Add(shape, pose, wanted); }));
   }
-  Subscriptions pair;
-  pair.verdict = false;
-  pair.distance = 100.0;
-  pair.travel = Subscriptions::Travel{{1, 0, 0}, 50.0};
-  worlds.ForAll([&](Scene& scene) { return scene.SubscribePair(bodies[7], bodies[3], pair).ok(); });
+  SubscribeFarPair(worlds, bodies[7], bodies[3]);
   std::size_t distances = 0, depths = 0, travels = 0;
   for (int step = 0; step < 250; ++step) {
-    for (const BodyHandle body : bodies) {
-      if (random.Int(0, 3) == 0) continue;
-      const WorldPose pose = random.Int(0, 60) == 0
-                                 ? RandomPose(random, 3.0)
-                                 : Nudged(random, worlds.scene(0).pose(body), 0.03, 0.03);
-      worlds.ForAll([&](Scene& scene) { return scene.Move(body, pose).ok(); });
-    }
+    MoveMost(random, worlds, bodies, 3.0);
     const SceneStep found = worlds.Step();
     if (HasFatalFailure()) FAIL() << "step " << step;
     distances += found.distances.size();
@@ -357,20 +368,10 @@ TEST(Rules, DistancesAndTravelsOfMeshes) {
     const SceneShape& shape = shapes[i % shapes.size()];
     bodies.push_back(worlds.ForAll([&](Scene& scene) { return *scene.Add(shape, pose, wanted); }));
   }
-  Subscriptions pair;
-  pair.verdict = false;
-  pair.distance = 100.0;
-  pair.travel = Subscriptions::Travel{{1, 0, 0}, 50.0};
-  worlds.ForAll([&](Scene& scene) { return scene.SubscribePair(bodies[7], bodies[3], pair).ok(); });
+  SubscribeFarPair(worlds, bodies[7], bodies[3]);
   std::size_t distances = 0, travels = 0;
   for (int step = 0; step < 60; ++step) {
-    for (const BodyHandle body : bodies) {
-      if (random.Int(0, 3) == 0) continue;
-      const WorldPose pose = random.Int(0, 60) == 0
-                                 ? RandomPose(random, 2.5)
-                                 : Nudged(random, worlds.scene(0).pose(body), 0.03, 0.03);
-      worlds.ForAll([&](Scene& scene) { return scene.Move(body, pose).ok(); });
-    }
+    MoveMost(random, worlds, bodies, 2.5);
     const SceneStep found = worlds.Step();
     if (HasFatalFailure()) FAIL() << "step " << step;
     distances += found.mesh_distances.size();

@@ -282,36 +282,41 @@ def error_values(directory):
     save(figure, directory, "error-values.svg")
 
 
+def panels_of_curves(directory, name, rows, panel, curve, x, y, height, colours, labels, title):
+    """One panel for each value of `panel`, in it one curve of y over x for each value of `curve`."""
+    panels = list(dict.fromkeys(row[panel] for row in rows))
+    figure, axes = plt.subplots(1, len(panels), figsize=(10, height), squeeze=False, sharey=True)
+    handles = {}
+    for axis, value in zip(axes.flat, panels):
+        curves = collections.defaultdict(list)
+        for row in rows:
+            if row[panel] == value:
+                curves[row[curve]].append((float(row[x]), float(row[y])))
+        for label, points in curves.items():
+            (handles[label],) = axis.plot(*zip(*sorted(points)), "-o", markersize=3,
+                                          color=colours.get(label, "black"))
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.grid(True, which="major", color="#dddddd", linewidth=0.5)
+        axis.set_title(value, fontsize=10)
+        axis.set_xlabel(labels[0], fontsize=8)
+        axis.tick_params(labelsize=8)
+    axes[0, 0].set_ylabel(labels[1], fontsize=8)
+    figure.suptitle(title, fontsize=11)
+    figure.tight_layout(rect=(0, 0.1, 1, 1))
+    legend_below(figure, handles.values(), handles.keys(), 4)
+    save(figure, directory, name)
+
+
 def scene(directory):
     rows = [row for row in read(directory, "scene.csv") if " without " not in row["engine"]]
     if not rows:
         return
-    motions = list(dict.fromkeys(row["motion"] for row in rows))
-    figure, axes = plt.subplots(1, len(motions), figsize=(10, 4.0), squeeze=False, sharey=True)
     colours = {"touchstone": "#d62728", "touchstone threads": "#ff9896", "fcl": "#9467bd",
                "bullet-f64": "#7f7f7f"}
-    handles = {}
-    for axis, motion in zip(axes.flat, motions):
-        curves = collections.defaultdict(list)
-        for row in rows:
-            if row["motion"] == motion:
-                curves[row["engine"]].append((int(row["bodies"]),
-                                              float(row["median_ms_per_step"])))
-        for engine, points in curves.items():
-            points.sort()
-            (handles[engine],) = axis.plot(*zip(*points), "-o", color=colours.get(engine, "black"),
-                                           markersize=3)
-        axis.set_xscale("log")
-        axis.set_yscale("log")
-        axis.grid(True, which="major", color="#dddddd", linewidth=0.5)
-        axis.set_title(motion, fontsize=10)
-        axis.set_xlabel("bodies", fontsize=8)
-        axis.tick_params(labelsize=8)
-    axes[0, 0].set_ylabel("ms a step", fontsize=8)
-    figure.suptitle("Steps of scenes of hulls of 100 vertices at constant density", fontsize=11)
-    figure.tight_layout(rect=(0, 0.1, 1, 1))
-    legend_below(figure, handles.values(), handles.keys(), 4)
-    save(figure, directory, "scene.svg")
+    panels_of_curves(directory, "scene.svg", rows, "motion", "engine", "bodies",
+                     "median_ms_per_step", 4.0, colours, ("bodies", "ms a step"),
+                     "Steps of scenes of hulls of 100 vertices at constant density")
 
 
 def boundary_growth(directory):
@@ -342,31 +347,11 @@ def minkowski(directory):
     rows = [row for row in read(directory, "minkowski.csv") if "-depth" not in row["scene"]]
     if not rows:
         return
-    scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    figure, axes = plt.subplots(1, len(scenes), figsize=(10, 3.6), squeeze=False, sharey=True)
     colours = {"gap-filling": "#d62728", "sphere-hierarchy": "#9467bd", "brute-force": "#7f7f7f",
                "full": "black"}
-    handles = {}
-    for axis, name in zip(axes.flat, scenes):
-        curves = collections.defaultdict(list)
-        for row in rows:
-            if row["scene"] == name:
-                curves[row["builder"]].append((float(row["rotation_deg"]),
-                                               float(row["median_ms"])))
-        for builder, points in curves.items():
-            (handles[builder],) = axis.plot(*zip(*sorted(points)), "-o",
-                                            color=colours.get(builder, "black"), markersize=3)
-        axis.set_xscale("log")
-        axis.set_yscale("log")
-        axis.grid(True, which="major", color="#dddddd", linewidth=0.5)
-        axis.set_title(name, fontsize=10)
-        axis.set_xlabel("degrees a frame", fontsize=8)
-        axis.tick_params(labelsize=8)
-    axes[0, 0].set_ylabel("ms an update", fontsize=8)
-    figure.suptitle("Local Minkowski sums: time of an update against rotation", fontsize=11)
-    figure.tight_layout(rect=(0, 0.1, 1, 1))
-    legend_below(figure, handles.values(), handles.keys(), 4)
-    save(figure, directory, "minkowski.svg")
+    panels_of_curves(directory, "minkowski.svg", rows, "scene", "builder", "rotation_deg",
+                     "median_ms", 3.6, colours, ("degrees a frame", "ms an update"),
+                     "Local Minkowski sums: time of an update against rotation")
 
 
 def main():
