@@ -95,8 +95,10 @@ class CampaignStore::Lock {
     if (file_ < 0) throw BadInput{folder + "/campaign.lock: " + std::strerror(errno)};
     for (int i = 0; flock(file_, LOCK_EX | LOCK_NB) != 0; ++i) {
       if (errno != EWOULDBLOCK || i == kLockTries) {
+        const std::string why =
+            errno == EWOULDBLOCK ? "another process works on this campaign" : std::strerror(errno);
         close(file_);
-        throw BadInput{folder + ": another process works on this campaign"};
+        throw BadInput{folder + "/campaign.lock: " + why};
       }
       std::this_thread::sleep_for(kLockPause);
     }
