@@ -28,6 +28,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::uint64_t kPlacementsOfAPair = 16;
+constexpr int kUnjudgedSteps = 3;  // of a motion, with Nef polyhedra, before the one judged
 constexpr std::size_t kSamples = 5;
 constexpr std::array<int, 3> kFaceCounts = {50, 100, 200};
 constexpr int kSmallFaceCount = 24;
@@ -51,6 +52,24 @@ class Bodies {
   std::map<std::pair<std::string, int>, std::unique_ptr<Body>> bodies_;
 };
 
+// With Nef polyhedra a group is one placement: every pair of shapes in its turn, and as often again
+// placed otherwise.
+struct NefGroup {
+  std::size_t a = 0, b = 0;  // of ShapeNames
+  DepthPlacement placement;
+
+  explicit NefGroup(std::uint64_t group) {
+    const std::size_t shapes = ShapeNames().size(), pairs = shapes * (shapes + 1) / 2;
+    std::size_t pair = group % pairs;
+    while (pair >= shapes - a) pair -= shapes - a++;
+    b = a + pair;
+    placement = static_cast<DepthPlacement>((group + group / pairs) % 3);
+    if (ShapeNames()[a] == "dimpled" && ShapeNames()[b] == "spiked") {
+      placement = DepthPlacement::kLocked;
+    }
+  }
+};
+
 // One pair, and placements of it, to be asked in order.
 class PlacedBodies {
  public:
@@ -58,7 +77,8 @@ class PlacedBodies {
       : options_(options),
         random_("mesh-depth", options.seed, group),
         group_(group),
-        placement_(static_cast<DepthPlacement>(group % kDepthPlacementCount)),
+        placement_(options.nef ? NefGroup(group).placement
+                               : static_cast<DepthPlacement>(group % kDepthPlacementCount)),
         a_(Pick(bodies, "dimpled")),
         b_(Pick(bodies, "spiked")) {
     rotation_ = placement_ == DepthPlacement::kOnGrid ? random_.AxisRotation() : random_.Rotation();
@@ -106,8 +126,11 @@ class PlacedBodies {
     stats->by_boundary += result.by_boundary;
     stats->natural_vertices += result.kind == NearestKind::kNaturalVertex;
     const auto findings = options_.nef ? JudgedByNef(*pose, result) : Judged(*pose, result);
-    stats->late += !findings;
-    if (!findings) return;
+    if (!findings) {
+      ++stats->late;
+      if (options_.nef) stats->late_pairs.push_back(a_name_ + " and " + b_name_);
+      return;
+    }
     ++stats->judged;
     stats->wrong += !findings->empty();
     if (!findings->empty() && stats->samples.size() < kSamples) {
@@ -120,9 +143,13 @@ class PlacedBodies {
   const Body& Pick(Bodies* bodies, const std::string& locked) {
     std::string& name = locked == "dimpled" ? a_name_ : b_name_;
     const bool is_locked = placement_ == DepthPlacement::kLocked;
+    if (options_.nef) {
+      const NefGroup group(group_);
+      name = ShapeNames()[locked == "dimpled" ? group.a : group.b];
+      return bodies->Get(name, kSmallFaceCount);
+    }
     name = is_locked ? locked : random_.Pick(ShapeNames());
-    const int face_count = options_.nef ? kSmallFaceCount : random_.Pick(kFaceCounts);
-    return bodies->Get(is_locked ? locked : name, face_count);
+    return bodies->Get(name, random_.Pick(kFaceCounts));
   }
 
   Matrix3d LockedRotation() {
@@ -227,12 +254,18 @@ std::array<MeshDepthStats, kDepthPlacementCount> RunMeshDepths(
   std::array<MeshDepthStats, kDepthPlacementCount> stats;
   Bodies bodies;
   const std::uint64_t end = options.first + options.count;
-  for (std::uint64_t group = options.first / kPlacementsOfAPair; group * kPlacementsOfAPair < end;
-       ++group) {
+  const std::uint64_t of_a_group = options.nef ? 1 : kPlacementsOfAPair;
+  for (std::uint64_t group = options.first / of_a_group; group * of_a_group < end; ++group) {
     PlacedBodies placed(&bodies, options, group);
     MeshDepthStats& own = stats[static_cast<int>(placed.placement())];
-    for (std::uint64_t k = 0; k < kPlacementsOfAPair; ++k) {
-      const std::uint64_t index = group * kPlacementsOfAPair + k;
+    if (options.nef && placed.placement() == DepthPlacement::kMoving) {
+      for (int k = 0; k < kUnjudgedSteps; ++k) {
+        placed.Ask(false, &own);
+        placed.Next();
+      }
+    }
+    for (std::uint64_t k = 0; k < of_a_group; ++k) {
+      const std::uint64_t index = group * of_a_group + k;
       if (index >= end) break;
       if (k > 0) placed.Next();
       placed.Ask(index >= options.first, &own);

@@ -29,7 +29,8 @@ struct MeshDepthStats {
   std::uint64_t judged = 0;  // that the exact half came to an end with
   std::uint64_t late = 0;    // that it did not, in the time given
   std::uint64_t wrong = 0;
-  std::vector<std::string> samples;  // of what was wrong, one line each
+  std::vector<std::string> samples;     // of what was wrong, one line each
+  std::vector<std::string> late_pairs;  // by Nef polyhedra
 };
 
 struct MeshDepthRunOptions {
@@ -41,8 +42,8 @@ struct MeshDepthRunOptions {
 };
 
 // Global depths of two meshes, each held against the exact half. Placement i is the same on every
-// machine, whatever the range: a run can be made in pieces, and counts add up. Pairs of all shapes,
-// of up to about 200 faces; with `nef` of up to 24.
+// machine, whatever the range: a run can be made in pieces, and counts add up. Random pairs of all
+// shapes, of up to about 200 faces; with `nef` every pair in its turn, of about 24.
 std::array<MeshDepthStats, kDepthPlacementCount> RunMeshDepths(
     const MeshDepthRunOptions& options, const std::function<void(double)>& report);
 

@@ -229,6 +229,7 @@ int RunMeshDepthCommand(const Arguments& arguments) {
                                {"natural_vertices", own.natural_vertices},
                                {"judged", own.judged},
                                {"late", own.late},
+                               {"late_pairs", own.late_pairs},
                                {"wrong", own.wrong},
                                {"samples", own.samples}});
     std::vector<std::string> row = {name};
@@ -244,6 +245,7 @@ int RunMeshDepthCommand(const Arguments& arguments) {
   } else {
     table.Print(std::cout);
     for (const MeshDepthStats& own : stats) {
+      for (const std::string& pair : own.late_pairs) std::cout << "late: " << pair << '\n';
       for (const std::string& sample : own.samples) std::cout << sample << '\n';
     }
   }
