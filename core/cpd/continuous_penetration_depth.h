@@ -11,10 +11,12 @@
 #define TOUCHSTONE_CORE_CPD_CONTINUOUS_PENETRATION_DEPTH_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/cpd/phong_projection.h"
@@ -33,6 +35,10 @@ struct ContinuousDepthOptions {
   int iteration_limit = 12;  // local sums made for one answer, at most
   NormalWeights weights = NormalWeights::kAngle;
   PhongInterpolation interpolation = PhongInterpolation::kTangentBasis;
+  // Above 0: normals are those of MeanNormals, over this times |q|, in place of any that weights
+  // and interpolation make of triangles. They are continuous in the pose, as Theorem 4 would have
+  // it; no triangles are kept. README tells what that costs and how much is worth having.
+  double normal_radius = 0.0;
   // Follows the solution of the answer before while it lasts; otherwise every answer is the nearest
   // of the local solutions, as definition (8) has it, and may jump between branches.
   bool track_branch = true;
@@ -72,6 +78,7 @@ struct ContinuousDepthResult {
   bool branch_ended = false;           // the branch of the answer before was not found again
   bool combinatorics_changed = false;  // the solution lies on another facet than before
   int solutions = 0;                   // found in the last local sum, or on the triangles kept
+  double normal_radius = 0.0;          // of the mean normals there; 0 with others
   // The largest angle between the normals at the corners of the solution's triangle, in radians:
   // Theorem 3 supposes no more than about ten degrees.
   double corner_angle = 0.0;
@@ -80,6 +87,16 @@ struct ContinuousDepthResult {
   Ball ball;           // of the last local sum, or round the triangle that held
   int local_triangles = 0;
   double depth_ms = 0.0, minkowski_ms = 0.0, phong_ms = 0.0, total_ms = 0.0;
+};
+
+// The triangles of ∂M that an answer was found on, by name: the first holds it, and with it are all
+// that share a corner with that one; with normals averaged over a radius, the whole local sum.
+struct PhongPatch {
+  std::vector<SumFacet> facets;
+  std::vector<SumPointName> names;  // of corners; facet numbers are those of `facets`
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> facet_of_triangle;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // λ, in the first triangle
 };
 
 // What a solver keeps of the answer before: put back, it follows the motion from there again.
@@ -118,6 +135,9 @@ class ContinuousPenetrationDepth {
   // Nothing where the bodies were separate, or nothing came before.
   std::optional<ContinuousDepthState> state() const;
   void set_state(const std::optional<ContinuousDepthState>& state);
+  // Of the last answer, to be judged by others; nothing unless it is a projection. Not for a state
+  // that was put back.
+  std::optional<PhongPatch> patch() const;
   // Forgets the motion: the next answer begins with the global depth.
   void Forget();
 

@@ -9,14 +9,14 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
+#include "touchstone/core/cpd/candidate_list_internal.h"
 #include "touchstone/core/cpd/contact_body.h"
 #include "touchstone/core/cpd/contact_signs_internal.h"
 #include "touchstone/core/cpd/phong_projection.h"
+#include "touchstone/core/cpd/placed_facet_internal.h"
 #include "touchstone/core/mesh/membership.h"
-#include "touchstone/core/minkowski/feature_tree.h"
 #include "touchstone/core/minkowski/local_sum.h"
 
 namespace touchstone::internal {
@@ -36,39 +36,6 @@ struct PatchShape {
   std::vector<std::array<int, 3>> sides;      // from corner k to k + 1
   std::vector<std::array<bool, 3>> is_above;  // of a facet that bounds it, along that side
   std::vector<char> is_flat;                  // thinner than the slack
-};
-
-// A convex facet in doubles, in the pair's scaled frame.
-struct PlacedFacet {
-  std::array<Eigen::Vector3d, 4> corners;
-  int count = 0;
-  Eigen::Vector3d normal, low, high;
-  double offset = 0.0;
-};
-
-// Pairs of features that can have a facet in a ball at any pose near the one it was made for.
-class CandidateList {
- public:
-  // Whether it holds what a ball, scaled, can meet at the pair's pose.
-  bool Covers(const MeshPair& pair, const Eigen::Vector3d& center, double radius) const;
-  // Lists for a ball, with room for the ball to grow by `room`, for B's points to move by
-  // `distance`, and B to turn by `angle`.
-  void Make(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
-            const Eigen::Vector3d& center, double radius, double room, double distance,
-            double angle);
-  const std::vector<SumFacet>& facets() const { return facets_; }  // edges in both senses
-
- private:
-  void AddPairs(const MeshPair& pair, const ContactBody& body_a, const ContactBody& body_b,
-                SumFacetKind kind);
-
-  bool is_made_ = false;
-  RelativePose pose_;
-  double scale_ = 0.0, radius_ = 0.0, distance_ = 0.0, angle_ = 0.0;
-  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
-  std::vector<SumFacet> facets_;
-  PlacedFeatureTree trees_a_[3], trees_b_[3];  // by kind of facet
-  std::vector<std::pair<int, int>> stack_;
 };
 
 // Follows a patch from pose to pose.
@@ -113,7 +80,6 @@ class KeptPatch {
   void CoverPatch(const MeshPair& pair, const ContactBody& a, const ContactBody& b);
   bool FindWall(const MeshPair& pair, const ContactBody& a, const ContactBody& b, int triangle,
                 int side, PatchShape* shape);
-  bool Crosses(const PlacedFacet& facet, const PatchShape& shape, int triangle) const;
 
   std::vector<PlacedFacet> facets_;
   std::vector<Eigen::Vector3d> points_;  // scaled

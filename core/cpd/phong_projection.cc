@@ -177,7 +177,7 @@ std::vector<Vector3d> VertexNormals(std::span<const Vector3d> vertices,
   for (const std::array<int, 3>& triangle : triangles) {
     const Vector3d area = (vertices[triangle[1]] - vertices[triangle[0]])
                               .cross(vertices[triangle[2]] - vertices[triangle[0]]);
-    const double length = area.norm();
+    const double length = area.stableNorm();
     if (!(length > 0.0)) continue;
     for (int k = 0; k < 3; ++k) {
       const Vector3d u = vertices[triangle[(k + 1) % 3]] - vertices[triangle[k]];

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/cpd/continuous_solver_internal.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "touchstone/core/cpd/contact_name_internal.h"
+
+namespace touchstone::internal {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A solution moves no faster than its rate says, times this: between frames the rate itself
+// changes. Beyond, it is another one.
+constexpr double kBranchReach = 16.0;
+// The first ball has room for this much of it; if the branch is not there, the next has for α|q|.
+constexpr double kBallPart = 0.125;
+// The least ball, over the size of the pair: at a shallow touch α|q| would vanish.
+constexpr double kLeastBall = 1e-4;
+// Off the surface, over the size: far above the roundings of membership, as for the depth.
+constexpr double kStep = 0x1p-40;
+
+}  // namespace
+
+Ball BallOf(const PhongSurface& surface, int triangle) {
+  const auto& [a, b, c] = surface.triangles[triangle];
+  const Vector3d corners[] = {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
+  const auto round = [&](const Vector3d& center) {
+    double radius = 0.0;
+    for (const Vector3d& corner : corners) radius = std::max(radius, (corner - center).norm());
+    return Ball{center, radius};
+  };
+  Ball best = round((corners[0] + corners[1] + corners[2]) / 3.0);
+  for (int k = 0; k < 3; ++k) {
+    const Ball ball = round(0.5 * (corners[k] + corners[(k + 1) % 3]));
+    if (ball.radius < best.radius) best = ball;
+  }
+  return best;
+}
+
+ContinuousDepthResult ContinuousSolver::Update(const RelativePose& pose) {
+  const auto begin = Clock::now();
+  result_ = {};
+  pose_ = pose;
+  result_.branch = branch_;
+  if (Begin() && !FollowPatch()) {
+    if (options_.normal_radius > 0.0) {
+      SearchByMeanNormals();
+    } else {
+      Search();
+    }
+  }
+  result_.total_ms = Since(begin);
+  return result_;
+}
+
+void ContinuousSolver::Forget() {
+  last_.reset();
+  depth_cache_.Clear();
+}
+
+void ContinuousSolver::set_state(const std::optional<ContinuousDepthState>& state) {
+  last_ = state;
+  if (state) branch_ = state->branch;
+}
+
+std::optional<PhongPatch> ContinuousSolver::patch() const {
+  if (!last_ || result_.status != ContinuousDepthStatus::kFound) return std::nullopt;
+  PhongPatch patch;
+  patch.at = last_->at;
+  if (result_.iterations == 0) {
+    const PatchShape& kept = *last_->patch;
+    patch.facets = kept.facets;
+    patch.names = kept.names;
+    patch.triangles = kept.triangles;
+    patch.facet_of_triangle = kept.facet_of_triangle;
+    return patch;
+  }
+  patch.facets = sum_->facets;
+  patch.names = sum_->names;
+  const auto& own = sum_->triangles[triangle_];
+  const auto add = [&](int t) {
+    patch.triangles.push_back(sum_->triangles[t]);
+    patch.facet_of_triangle.push_back(sum_->facet_of_triangle[t]);
+  };
+  add(triangle_);
+  for (int t = 0; t < static_cast<int>(sum_->triangles.size()); ++t) {
+    const auto& corners = sum_->triangles[t];
+    if (t == triangle_) continue;
+    if (options_.normal_radius > 0.0 ||
+        std::find_first_of(corners.begin(), corners.end(), own.begin(), own.end()) !=
+            corners.end()) {
+      add(t);
+    }
+  }
+  return patch;
+}
+
+bool ContinuousSolver::Begin() {
+  const auto begin = Clock::now();
+  pair_.Place(pose_);
+  const Verdict verdict =
+      Membership(pair_, Vector3d(Vector3d::Zero()), {}, &membership_cache_).verdict;
+  if (verdict != Verdict::kOverlap) {
+    last_.reset();
+    result_.depth_ms = Since(begin);
+    return false;
+  }
+  least_radius_ = kLeastBall / pair_.scale();
+  is_near_only_ = false;
+  if (last_) {
+    at_ = last_->translation;
+    radius_ = std::max(options_.ball_ratio * at_.norm(), least_radius_);
+    if (options_.track_branch && last_->was_found) {
+      // To follow a branch it takes no more of ∂M than the triangle that it was on, and where it
+      // can have gone.
+      is_near_only_ = true;
+      at_ = last_->triangle.center;
+      radius_ = last_->triangle.radius + std::max(kBallPart * BranchReach(), least_radius_);
+    }
+  } else {
+    at_ = MeshPenetrationDepth(pair_, a_, b_, {}, &depth_cache_).translation;
+    radius_ = std::max(options_.ball_ratio * at_.norm(), least_radius_);
+  }
+  result_.depth_ms = Since(begin);
+  return true;
+}
+
+bool ContinuousSolver::FollowPatch() {
+  if (!last_ || !last_->was_found || last_->patch == nullptr || !options_.track_branch) {
+    return false;
+  }
+  const auto begin = Clock::now();
+  const std::shared_ptr<const PatchShape> shape = last_->patch;
+  const bool holds = patch_.Follow(pair_, a_, b_, *shape);
+  result_.minkowski_ms += Since(begin);
+  if (!holds) return false;
+  const auto begin_phong = Clock::now();
+  surface_ = patch_.Surface(pair_, *shape, options_.weights);
+  PhongOptions phong;
+  phong.interpolation = options_.interpolation;
+  phong.begin_at = last_->at;
+  points_.clear();
+  ProjectOntoTriangle(surface_, 0, phong, &points_);
+  const PhongPoint* chosen = nullptr;
+  double best = BranchReach();
+  for (const PhongPoint& point : points_) {
+    const double distance = (point.position - last_->translation).norm();
+    if (distance < best) best = distance, chosen = &point;
+  }
+  result_.phong_ms += Since(begin_phong);
+  if (chosen == nullptr || !IsOutside(*chosen, patch_.NormalOf(shape->facet_of_triangle[0]))) {
+    return false;
+  }
+  result_.local_triangles = static_cast<int>(shape->triangles.size());
+  result_.solutions = static_cast<int>(points_.size());
+  result_.ball = BallOf(surface_, 0);
+  Take(*chosen, shape->facets[shape->facet_of_triangle[0]], true, shape);
+  return true;
+}
+
+bool ContinuousSolver::IsOutside(const PhongPoint& point, const Vector3d& normal) {
+  const auto begin = Clock::now();
+  const Vector3d x = point.position + (kStep / pair_.scale()) * normal;
+  const Verdict verdict =
+      Membership(pair_, x, {Certainty::kFloat}, &surface_membership_cache_).verdict;
+  result_.minkowski_ms += Since(begin);
+  return verdict == Verdict::kSeparate;
+}
+
+double ContinuousSolver::BranchReach() const {
+  const Vector3d motion = (pose_.rotation() - last_->pose.rotation()) * last_->contact +
+                          pose_.translation() - last_->pose.translation();
+  return kBranchReach * (1.0 + last_->rate) * motion.norm() + 1e-12 / pair_.scale();
+}
+
+void ContinuousSolver::Take(const PhongPoint& point, const SumFacet& facet, bool continues,
+                            std::shared_ptr<const PatchShape> patch) {
+  result_.status = ContinuousDepthStatus::kFound;
+  result_.residual = point.residual;
+  triangle_ = point.triangle;
+  if (point.rate) {
+    // B moved by δ moves M by -δ: the origin moves by δ in M, and q by that less.
+    result_.rate_of_translation = *point.rate - Matrix3d::Identity();
+  }
+  const Ball triangle = BallOf(surface_, point.triangle);
+  result_.corner_angle = CornerAngle(surface_, point.triangle);
+  SetTranslation(point.position, facet);
+  SetBranch(continues, true, point.rate ? point.rate->norm() : 1.0, triangle);
+  last_->at = point.at;
+  last_->patch = std::move(patch);
+}
+
+void ContinuousSolver::Approximate(ContinuousDepthStatus status) {
+  result_.status = status;
+  if (best_misfit_ > 1.0) {  // nothing of ∂M was met
+    result_.residual = 1.0;
+    last_.reset();
+    const MeshDepthResult depth = MeshPenetrationDepth(pair_, a_, b_, {}, &depth_cache_);
+    result_.translation = depth.translation;
+    result_.direction = depth.translation.stableNormalized();
+    return;
+  }
+  result_.residual = best_misfit_;
+  SetTranslation(best_at_, best_facet_);
+  SetBranch(false, false, 1.0, {best_at_, 0.0});
+}
+
+void ContinuousSolver::SetTranslation(const Vector3d& q, const SumFacet& facet) {
+  result_.translation = q;
+  result_.direction = q.stableNormalized();
+  result_.features = facet;
+  result_.point_on_a = ContactPointOnA(pair_, facet, pair_.scale() * q) / pair_.scale();
+  result_.point_on_b = result_.point_on_a - q;
+}
+
+void ContinuousSolver::SetBranch(bool continues, bool was_found, double rate,
+                                 const Ball& triangle) {
+  result_.branch_ended = last_.has_value() && last_->was_found && !continues;
+  result_.combinatorics_changed = last_.has_value() && last_->features != result_.features;
+  if (!continues) ++branch_;
+  result_.branch = branch_;
+  const Vector3d contact =
+      pose_.rotation().transpose() * (result_.point_on_b - pose_.translation());
+  last_ = ContinuousDepthState{pose_,
+                               result_.translation,
+                               rate,
+                               triangle,
+                               contact,
+                               result_.features,
+                               was_found,
+                               branch_,
+                               Vector3d::Constant(1.0 / 3.0),
+                               nullptr};
+}
+
+}  // namespace touchstone::internal
