@@ -3,12 +3,14 @@
 #define TOUCHSTONE_EXACT_JUDGE_CPD_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/mesh/triangle_mesh.h"
+#include "touchstone/core/minkowski/sum_boundary.h"
 
 namespace touchstone::exact {
 
@@ -44,6 +46,47 @@ std::vector<std::string> JudgeMeshDepth(const TriangleMesh& a, const TriangleMes
 // bound may not pass. Seconds to minutes: see MakeNefMeshSum.
 std::vector<std::string> JudgeMeshDepthByNef(const TriangleMesh& a, const TriangleMesh& b,
                                              const RelativePose& pose, const MeshDepthClaim& claim);
+
+// Whose normals a Phong projection is by: the weights of triangles at their corners, or means over
+// a radius.
+enum class PhongNormals : std::uint8_t { kAngle, kArea, kUniform, kMean };
+
+// What an answer of continuous penetration depth claims: `translation` is, up to `rounding`, the
+// point of ∂M that λ gives on the first of these triangles, and the sine of the angle between it
+// and the surface's normal there is no more than `residual`. The triangles are named, and with them
+// are all that share a corner with the first; for means, all within the radius of the point.
+struct PhongClaim {
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  double rounding = 0.0, residual = 0.0;
+  double depth_lower_bound = 0.0;                // no point of ∂M is nearer
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  // λ
+  std::vector<SumFacet> facets;
+  std::vector<SumPointName> names;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> facet_of_triangle;
+  PhongNormals normals = PhongNormals::kAngle;
+  bool interpolated = false;  // the normals, as the paper's Figure 2a, in place of tangent planes
+  double mean_radius = 0.0;
+};
+
+// What is wrong with the claim; empty when it stands. Corners and the point are exact fractions:
+// the triangles are pieces of facets that can touch, and none is missing as far as their sides
+// tell; the bodies touch at the point, overlap inward of it and not outward; it is no nearer than
+// the depth; and the residual, by normals made of the exact corners, is in 256 bits but for angles,
+// which are doubles.
+//
+// Complexity: O(k) fractions for k triangles and three exact memberships.
+std::vector<std::string> JudgePhong(const TriangleMesh& a, const TriangleMesh& b,
+                                    const RelativePose& pose, const PhongClaim& claim);
+
+// Whether a Phong projection on some triangle of a surface, outward seen from the origin, is nearer
+// than `distance` by more than a millionth: from 25 starts on each triangle, in doubles, with
+// derivatives by differences. Returns a line that tells it, or nothing. Corners on the surface's
+// border have what normals the triangles given make.
+std::vector<std::string> FindNearerPhong(const std::vector<Eigen::Vector3d>& vertices,
+                                         const std::vector<std::array<int, 3>>& triangles,
+                                         const std::vector<Eigen::Vector3d>& triangle_normals,
+                                         double distance);
 
 }  // namespace touchstone::exact
 

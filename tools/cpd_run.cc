@@ -46,6 +46,12 @@ struct Times {
   }
 };
 
+// What answers claim, beyond the residual in doubles: corners are rounded, by 2^-44 of the size
+// where planes meet well and 2^-32 at worst, and angles at corners by that over the length of
+// sides.
+constexpr double kPhongRounding = 0x1p-32;  // of the size
+constexpr double kPhongResidual = 1e-8;
+
 void WriteDirection(const Vector3d& q, std::ostream& out) {
   const Vector3d u = q.stableNormalized();
   out << ',' << ShortDouble(q.norm());
@@ -60,10 +66,28 @@ Vector3d TranslationOf(const CpdFrame& frame, int method) {
 
 }  // namespace
 
-std::vector<CpdFrame> RunCpdScene(const PaperScene& scene, int frames) {
+std::optional<ContinuousDepthOptions> NormalsFromWord(const std::string& word) {
+  ContinuousDepthOptions options;
+  if (word == "angle") return options;
+  if (word == "area") {
+    options.weights = NormalWeights::kArea;
+  } else if (word == "uniform") {
+    options.weights = NormalWeights::kUniform;
+  } else if (word == "interpolated") {
+    options.interpolation = PhongInterpolation::kNormals;
+  } else if (word == "mean") {
+    options.normal_radius = kMeanNormalRadius;
+  } else {
+    return std::nullopt;
+  }
+  return options;
+}
+
+std::vector<CpdFrame> RunCpdScene(const PaperScene& scene, int frames,
+                                  const ContinuousDepthOptions& options) {
   const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
   const ContactBody body_a(a), body_b(b);
-  ContinuousPenetrationDepth cpd(a, b);
+  ContinuousPenetrationDepth cpd(a, b, options);
   MeshPair pair(a, b, scene.PoseAt(0.0));
   MeshDepthCache depth_cache;
   ContactSpaceCache contact_cache;
@@ -190,6 +214,44 @@ std::vector<std::string> JudgedMeshDepth(const TriangleMesh& a, const TriangleMe
                                options);
 }
 
+std::vector<std::string> JudgedPhong(const TriangleMesh& a, const TriangleMesh& b,
+                                     const RelativePose& pose,
+                                     const ContinuousPenetrationDepth& solver,
+                                     const ContinuousDepthOptions& options,
+                                     const ContinuousDepthResult& result,
+                                     double depth_lower_bound) {
+  const auto patch = solver.patch();
+  if (!patch) return {};
+  const double size = 1.0 / MeshPair(a, b, pose).scale();
+  exact::PhongClaim claim;
+  claim.translation = result.translation;
+  claim.rounding = kPhongRounding * size;
+  claim.residual = std::max(result.residual, kPhongResidual);
+  claim.depth_lower_bound = depth_lower_bound;
+  claim.at = patch->at;
+  claim.facets = patch->facets;
+  claim.names = patch->names;
+  claim.triangles = patch->triangles;
+  claim.facet_of_triangle = patch->facet_of_triangle;
+  claim.normals = static_cast<exact::PhongNormals>(options.weights);
+  claim.interpolated = options.interpolation == PhongInterpolation::kNormals;
+  if (options.normal_radius > 0.0) {
+    claim.normals = exact::PhongNormals::kMean;
+    claim.interpolated = false;
+    claim.mean_radius = result.normal_radius;
+  }
+  std::vector<std::string> findings = exact::JudgePhong(a, b, pose, claim);
+  // Without a branch to follow, it is the nearest of all local solutions.
+  if (!options.track_branch && claim.normals == exact::PhongNormals::kAngle &&
+      !claim.interpolated) {
+    const LocalSum& sum = solver.local_sum();
+    const auto nearer = exact::FindNearerPhong(sum.vertices, sum.triangles, sum.triangle_normals,
+                                               result.translation.norm());
+    findings.insert(findings.end(), nearer.begin(), nearer.end());
+  }
+  return findings;
+}
+
 PremiseRow MeasurePremise(const PaperScene& scene, int moments, int frames) {
   constexpr double kDegrees = 57.29577951308232, kPremise = 10.0;
   const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
@@ -266,53 +328,77 @@ CpdProfile ProfileCpd(const PaperScene& scene, HeapMeter heap) {
   return profile;
 }
 
-std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOptions& options) {
-  const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
-  const ContactBody body_a(a), body_b(b);
-  MeshPair pair(a, b, scene.PoseAt(0.0));
-  // Coherent: a tenth of a degree a frame from a third of the motion on; a degree; and cold, all
-  // along it.
-  const double begin = 0.3, tenth = scene.AtTurn(0.1) - scene.AtTurn(0.0), degree = 10.0 * tenth;
+namespace {
 
-  ContinuousPenetrationDepth cpd(a, b);
+// Where bench motions begin, and how far s goes in a frame of a tenth of a degree.
+constexpr double kBenchBegin = 0.3;
+double TenthOf(const PaperScene& scene) { return scene.AtTurn(0.1) - scene.AtTurn(0.0); }
+
+// CPD along a bench motion.
+struct CpdBenchRun {
   Times mink, phong, total;
-  int without = 0, events = 0, combinatorial = 0, cpd_findings = 0, bisected = 0;
-  const auto start = Clock::now();
-  const auto has_time = [&] { return Since(start) < 1e3 * options.seconds; };
-  std::vector<std::pair<double, ContinuousDepthState>> suspects;  // where a step begins
+  int without = 0;  // frames that have no projection
+  int events = 0, combinatorial = 0, findings = 0;
+};
+
+CpdBenchRun BenchCpd(const PaperScene& scene, const ContinuousDepthOptions& how,
+                     const CpdBenchOptions& options, const std::function<bool()>& has_time) {
+  struct Suspect {
+    double from, to;
+    ContinuousDepthState state;
+  };
+  CpdBenchRun run;
+  ContinuousPenetrationDepth cpd(MustBuild(scene.a), MustBuild(scene.b), how);
+  std::vector<Suspect> suspects;
   std::optional<ContinuousDepthState> before;
-  std::vector<double> ends;
+  const double tenth = TenthOf(scene);
   for (int i = 0; i < options.frames && has_time(); ++i) {
-    const double s = begin + i * tenth;
+    const double s = kBenchBegin + i * tenth;
     const RelativePose pose = scene.PoseAt(s);
     const double at = ProcessorMs();
     const ContinuousDepthResult result = cpd.Update(pose);
     if (i > 0) {  // the first is cold
       // The solver's own times are by the clock: they say how the processor's was shared out.
       const double spent = ProcessorMs() - at, part = spent / std::max(result.total_ms, 1e-9);
-      mink.ms.push_back(part * result.minkowski_ms);
-      phong.ms.push_back(part * result.phong_ms);
-      total.ms.push_back(spent);
+      run.mink.ms.push_back(part * result.minkowski_ms);
+      run.phong.ms.push_back(part * result.phong_ms);
+      run.total.ms.push_back(spent);
     }
-    without += result.status != ContinuousDepthStatus::kFound;
-    cpd_findings += result.status == ContinuousDepthStatus::kFound && !(result.residual < 1e-10);
+    run.without += result.status != ContinuousDepthStatus::kFound;
+    run.findings += result.status == ContinuousDepthStatus::kFound && !(result.residual < 1e-10);
     if (before && !IsSmallStep(before->translation, result.translation)) {
-      suspects.emplace_back(s - tenth, *before);
-      ends.push_back(s);
+      suspects.push_back({s - tenth, s, *before});
     }
     before = cpd.state();
   }
-  for (std::size_t i = 0; i < suspects.size(); ++i) {
+  int bisected = 0;
+  for (const Suspect& suspect : suspects) {
     if (bisected >= options.bisected_steps || !has_time()) {
-      ++events;  // not looked into: counted
+      ++run.events;  // not looked into: counted
       continue;
     }
     ++bisected;
-    const CpdEvent event =
-        FindCpdEvent(scene, &cpd, suspects[i].second, suspects[i].first, ends[i]);
-    events += event.jumps;
-    combinatorial += event.jumps && event.by_combinatorics;
+    const CpdEvent event = FindCpdEvent(scene, &cpd, suspect.state, suspect.from, suspect.to);
+    run.events += event.jumps;
+    run.combinatorial += event.jumps && event.by_combinatorics;
   }
+  return run;
+}
+
+}  // namespace
+
+std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOptions& options) {
+  const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
+  const ContactBody body_a(a), body_b(b);
+  MeshPair pair(a, b, scene.PoseAt(0.0));
+  // Coherent: a tenth of a degree a frame from a third of the motion on; a degree; and cold, all
+  // along it.
+  const double begin = kBenchBegin, tenth = TenthOf(scene), degree = 10.0 * tenth;
+  const auto start = Clock::now();
+  const auto has_time = [&] { return Since(start) < 1e3 * options.seconds; };
+  const CpdBenchRun by_angle = BenchCpd(scene, {}, options, has_time);
+  const CpdBenchRun by_mean =
+      BenchCpd(scene, {.normal_radius = kMeanNormalRadius}, options, has_time);
 
   MeshDepthCache cache;
   const auto depth_at = [&](double s) {
@@ -366,21 +452,26 @@ std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOp
   }
   for (int i = 0; i < options.frames; ++i) timed_contact(begin + i * tenth, &contact_coherent);
 
-  std::vector<CpdBenchRow> rows = {mink.Row(scene.name, "cpd-minkowski"),
-                                   phong.Row(scene.name, "cpd-phong"),
-                                   total.Row(scene.name, "cpd-total"),
+  const auto cpd_total = [&](const CpdBenchRun& run, const std::string& method) {
+    CpdBenchRow row = run.total.Row(scene.name, method);
+    row.events = run.events;
+    row.jumps = jumps + run.without;
+    row.combinatorial = run.combinatorial;
+    row.findings = run.findings + (row.events > row.jumps ? 1 : 0);
+    return row;
+  };
+  std::vector<CpdBenchRow> rows = {by_angle.mink.Row(scene.name, "cpd-minkowski"),
+                                   by_angle.phong.Row(scene.name, "cpd-phong"),
+                                   cpd_total(by_angle, "cpd-total"),
+                                   cpd_total(by_mean, "cpd-mean-normals"),
                                    cold.Row(scene.name, "depth-cold"),
                                    coherent.Row(scene.name, "depth-coherent-0.1"),
                                    coarse.Row(scene.name, "depth-coherent-1"),
                                    contact_cold.Row(scene.name, "contact-space-cold"),
                                    contact_coherent.Row(scene.name, "contact-space-coherent")};
-  rows[2].events = events;
-  rows[2].jumps = jumps + without;
-  rows[2].combinatorial = combinatorial;
-  rows[2].findings = cpd_findings + (events > jumps + without ? 1 : 0);
-  rows[3].findings = depth_findings;
-  rows[4].jumps = jumps;
-  rows[6].findings = deeper;
+  rows[4].findings = depth_findings;
+  rows[5].jumps = jumps;
+  rows[7].findings = deeper;
   return rows;
 }
 

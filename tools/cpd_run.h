@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@
 
 namespace touchstone {
 
+// Options for normals by word: angle, area, uniform, interpolated (the paper's Figure 2a), mean.
+inline constexpr double kMeanNormalRadius = 0.3;  // for the last: normal_radius
+std::optional<ContinuousDepthOptions> NormalsFromWord(const std::string& word);
+
 // One moment of the motion, by all three methods, each coherent.
 struct CpdFrame {
   double s;  // of PaperScene::PoseAt
@@ -28,7 +33,8 @@ struct CpdFrame {
 };
 
 // `frames` moments, s evenly from 0 to 1, both ends included.
-std::vector<CpdFrame> RunCpdScene(const PaperScene& scene, int frames);
+std::vector<CpdFrame> RunCpdScene(const PaperScene& scene, int frames,
+                                  const ContinuousDepthOptions& options = {});
 
 // Columns: s, then status (CPD), and for each method magnitude and direction.
 void WriteCpdCsv(const std::vector<CpdFrame>& frames, std::ostream& out);
@@ -58,13 +64,13 @@ struct CpdBenchRow {
 };
 
 struct CpdBenchOptions {
-  int frames = 200;         // a motion
-  int judged_frames = 10;   // of each scene, by the exact half
-  int bisected_steps = 20;  // of each scene and method, at most
-  double seconds = 1e9;     // for bisecting and judging, each scene
+  int frames = 200;          // a motion
+  int judged_frames = 10;    // of each scene, by the exact half
+  int bisected_steps = 200;  // of each scene and method, at most; others count as events
+  double seconds = 1e9;      // for bisecting and judging, each scene
 };
-// Rows of one scene: mink, phong, total (Table 1's columns), the depth cold and coherent, and the
-// contact-space projection cold and coherent.
+// Rows of one scene: mink, phong, total (Table 1's columns), CPD by mean normals, the depth cold
+// and coherent, and the contact-space projection cold and coherent.
 std::vector<CpdBenchRow> BenchCpdScene(const PaperScene& scene, const CpdBenchOptions& options);
 
 // Theorem 3's premise on a scene: the largest angle between the normals at the corners of a
@@ -91,6 +97,15 @@ CpdProfile ProfileCpd(const PaperScene& scene, HeapMeter heap);
 std::vector<std::string> JudgedMeshDepth(const TriangleMesh& a, const TriangleMesh& b,
                                          const RelativePose& pose, const MeshDepthResult& result,
                                          int samples);
+
+// What the exact half finds wrong with the solver's last answer, found with these options at this
+// pose: see exact/judge_cpd.h. An answer that claims to be the nearest is, by the local sum's
+// triangles. Empty when it stands, and where it is no projection and claims nothing.
+std::vector<std::string> JudgedPhong(const TriangleMesh& a, const TriangleMesh& b,
+                                     const RelativePose& pose,
+                                     const ContinuousPenetrationDepth& solver,
+                                     const ContinuousDepthOptions& options,
+                                     const ContinuousDepthResult& result, double depth_lower_bound);
 
 }  // namespace touchstone
 

@@ -42,13 +42,42 @@ TEST(CpdCommand, SceneWritesCsvAndSvg) {
 TEST(CpdCommand, BenchRows) {
   const ProgramRun run = RunProgram("bench cpd --quick --frames 3 --scene fish-torus --json");
   ASSERT_LE(run.exit_code, 1) << run.out << run.err;  // 1: an event was counted
-  ASSERT_EQ(run.json().size(), 8u);
+  ASSERT_EQ(run.json().size(), 9u);
   for (const auto& row : run.json()) {
     for (const char* key :
          {"scene", "method", "median_ms", "p99_ms", "frames", "events", "jumps", "findings"}) {
       EXPECT_TRUE(row.contains(key)) << key;
     }
   }
+}
+
+TEST(CpdCommand, ContinuousDepthsAreJudged) {
+  const ProgramRun run = RunProgram("verify --cpd --count 72 --seed 5 --json");
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  const nlohmann::json json = run.json();
+  ASSERT_EQ(json["results"].size(), 6u);
+  int found = 0;
+  for (const auto& row : json["results"]) {
+    EXPECT_EQ(row["placements"], 12);
+    EXPECT_EQ(row["wrong"], 0);
+    found += row["found"].get<int>();
+  }
+  EXPECT_GT(found, 36);
+}
+
+TEST(CpdCommand, EveryOptionOfNormals) {
+  double depth = 0.0;
+  for (const std::string word : {"angle", "area", "uniform", "interpolated", "mean"}) {
+    const ProgramRun run = RunProgram(
+        "cpd shape:torus:200 shape:star --pose 1 0 0 1.8 0 0.8 -0.6 0.1 0 0.6 0.8 0 --normals " +
+        word + " --json");
+    ASSERT_EQ(run.exit_code, 0) << word << run.out << run.err;
+    EXPECT_EQ(run.json()["cpd"]["status"], "found") << word;
+    depth = run.json()["depth"]["lower"];
+    EXPECT_GE(run.json()["cpd"]["magnitude"].get<double>(), depth - 1e-9) << word;
+  }
+  EXPECT_GT(depth, 0.0);
+  EXPECT_EQ(RunProgram("cpd shape:star shape:star --normals best").exit_code, 2);
 }
 
 TEST(CpdCommand, PremiseOfTheorem3) {

@@ -20,11 +20,18 @@ namespace touchstone {
 namespace {
 
 struct Arguments {
-  std::string a, b, scene, csv, svg;
+  std::string a, b, scene, csv, svg, normals = "angle";
   std::vector<std::string> pose;
   int frames = kPaperFrames;
   bool judge = false, premise = false, json = false;
 };
+
+ContinuousDepthOptions OptionsOf(const Arguments& arguments) {
+  const auto options = NormalsFromWord(arguments.normals);
+  if (options) return *options;
+  throw BadInput{"--normals: '" + arguments.normals +
+                 "' is none of angle, area, uniform, interpolated, mean"};
+}
 
 std::string Words(const Eigen::Vector3d& v) {
   return ShortDouble(v[0]) + " " + ShortDouble(v[1]) + " " + ShortDouble(v[2]);
@@ -39,19 +46,15 @@ int RunPair(const Arguments& arguments) {
   const MeshDepthResult depth = MeshPenetrationDepth(pair, body_a, body_b);
   const std::chrono::duration<double, std::milli> depth_time =
       std::chrono::steady_clock::now() - begin;
-  ContinuousPenetrationDepth solver(a, b);
+  ContinuousPenetrationDepth solver(a, b, OptionsOf(arguments));
   const ContinuousDepthResult cpd = solver.Update(pose);
   const ContactSpaceResult contact = ContactSpaceProjection(pair);
 
   std::vector<std::string> findings;
   if (arguments.judge) {
     findings = JudgedMeshDepth(a, b, pose, depth, 60);
-    if (cpd.status == ContinuousDepthStatus::kFound) {
-      if (!(cpd.residual < 1e-10)) findings.push_back("cpd: the residual is no rounding");
-      if (cpd.translation.norm() < depth.lower_bound * (1.0 - 1e-9)) {
-        findings.push_back("cpd: shorter than the depth");
-      }
-    }
+    const auto own = JudgedPhong(a, b, pose, solver, OptionsOf(arguments), cpd, depth.lower_bound);
+    findings.insert(findings.end(), own.begin(), own.end());
   }
   if (arguments.json) {
     Json json = {{"a", arguments.a},
@@ -114,7 +117,7 @@ int RunScene(const Arguments& arguments) {
     throw BadInput{"--scene: '" + arguments.scene + "' is none of" + names};
   }
   if (arguments.frames < 1) throw BadInput{"--frames: at least one"};
-  const std::vector<CpdFrame> frames = RunCpdScene(*scene, arguments.frames);
+  const std::vector<CpdFrame> frames = RunCpdScene(*scene, arguments.frames, OptionsOf(arguments));
   const auto write = [&](const std::string& path, const auto& print) {
     if (path.empty()) return;
     std::ofstream out(path);
@@ -208,6 +211,11 @@ void AddCpd(CLI::App& app, int& exit_code) {
   command->add_option("--csv", arguments->csv, "file for magnitudes and directions");
   command->add_option("--svg", arguments->svg, "file for them as a figure");
   command->add_flag("--judge", arguments->judge, "hold the depth against the exact half");
+  command
+      ->add_option("--normals", arguments->normals,
+                   "of the Minkowski boundary, for CPD: weighted by angle, area, or uniform at its "
+                   "vertices; interpolated, as the paper's Figure 2a; or mean: over a radius")
+      ->capture_default_str();
   command->add_flag("--premise", arguments->premise,
                     "instead: the angles between the normals at triangles' corners, by scene");
   command->add_flag("--json", arguments->json, "print JSON");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "touchstone/tools/boundary_run.h"
+#include "touchstone/tools/cpd_judge_run.h"
 #include "touchstone/tools/membership_run.h"
 #include "touchstone/tools/mesh_depth_run.h"
 #include "touchstone/tools/numbers.h"
@@ -34,7 +35,7 @@ struct Arguments {
   int threads = 0;
   std::string certainty = "exact", early_exit = "mixed", depth = "mixed";
   bool coverage = false, proximity = false, membership = false, boundary = false,
-       mesh_depth = false, nef = false, json = false;
+       mesh_depth = false, nef = false, cpd = false, json = false;
 };
 
 constexpr std::uint64_t kDefaultCount = 1000;
@@ -252,9 +253,49 @@ int RunMeshDepthCommand(const Arguments& arguments) {
   return wrong == 0 ? kFine : kFindings;
 }
 
+int RunCpdJudgeCommand(const Arguments& arguments) {
+  if (arguments.minutes != 0.0) throw BadInput{"--minutes: --cpd takes a --count"};
+  const CpdJudgeOptions options{arguments.seed, arguments.first,
+                                arguments.count == 0 ? kDefaultCount : arguments.count};
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const auto stats = RunCpdJudge(options, [&](double fraction) {
+    if (terminal) std::cerr << '\r' << static_cast<int>(100.0 * fraction) << "% " << std::flush;
+  });
+  if (terminal) std::cerr << "\r\033[K";
+  Json json = {{"seed", options.seed}, {"first", options.first}, {"count", options.count}};
+  json["results"] = Json::array();
+  Table table;
+  table.Row({"placements", "count", "overlapping", "projections", "on kept triangles", "wrong"});
+  std::uint64_t wrong = 0;
+  for (int c = 0; c < kCpdCaseCount; ++c) {
+    const CpdJudgeStats& own = stats[c];
+    const std::string name(ToString(static_cast<CpdCase>(c)));
+    json["results"].push_back({{"case", name},
+                               {"placements", own.placements},
+                               {"overlapping", own.overlapping},
+                               {"found", own.found},
+                               {"kept", own.kept},
+                               {"wrong", own.wrong},
+                               {"samples", own.samples}});
+    table.Row({name, std::to_string(own.placements), std::to_string(own.overlapping),
+               std::to_string(own.found), std::to_string(own.kept), std::to_string(own.wrong)});
+    wrong += own.wrong;
+  }
+  if (arguments.json) {
+    std::cout << json.dump(2) << '\n';
+  } else {
+    table.Print(std::cout);
+    for (const CpdJudgeStats& own : stats) {
+      for (const std::string& sample : own.samples) std::cout << sample << '\n';
+    }
+  }
+  return wrong == 0 ? kFine : kFindings;
+}
+
 int RunVerifyCommand(const Arguments& arguments) {
   if (arguments.nef && !arguments.mesh_depth) throw BadInput{"--nef: belongs to --mesh-depth"};
   if (arguments.mesh_depth) return RunMeshDepthCommand(arguments);
+  if (arguments.cpd) return RunCpdJudgeCommand(arguments);
   if (arguments.membership) return RunMembershipCommand(arguments);
   if (arguments.boundary) return RunBoundaryCommand(arguments);
   if (!arguments.meshes.empty() && !std::filesystem::is_directory(arguments.meshes)) {
@@ -345,6 +386,10 @@ void AddVerify(CLI::App& app, int& exit_code) {
   command->add_flag("--nef", arguments->nef,
                     "with --mesh-depth: small bodies, against whole boundaries by Nef polyhedra, "
                     "30 s each at most");
+  command->add_flag("--cpd", arguments->cpd,
+                    "ask continuous depths of random pairs and along the paper's scenes, and judge "
+                    "each by exact membership, the depth, and its residual: --count placements "
+                    "from --first on, on one thread");
   command->add_flag("--boundary", arguments->boundary,
                     "build whole Minkowski boundaries of small bodies, aligned, nearly so and "
                     "anyhow, and judge them: --count cases from --first on, on one thread");

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "touchstone/exact/judge/nearest_on_triangle.h"
+#include "touchstone/exact/judge/phong_field.h"
+#include "touchstone/exact/judge_cpd.h"
+
+namespace touchstone::exact {
+namespace {
+
+using Eigen::Vector3d;
+using Doubles = Triple<double>;
+
+constexpr int kStartsAlongSide = 5;
+constexpr int kSteps = 30;
+constexpr double kDifference = 1e-7;  // in λ: the square root of roundings
+constexpr double kSolved = 1e-11;     // differences leave Newton linear, by five digits a step
+constexpr double kInside = 1e-6;      // in λ: solutions on sides are as well a neighbour's
+
+Doubles ToTriple(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+class TriangleSearch {
+ public:
+  TriangleSearch(const std::array<Doubles, 3>& corners, const std::array<Doubles, 3>& normals)
+      : corners_(corners), normals_(normals) {}
+
+  // The length of a projection shorter than `distance`.
+  std::optional<double> Nearer(double distance) const {
+    std::optional<double> found;
+    for (int i = 0; i < kStartsAlongSide; ++i) {
+      for (int j = 0; j < kStartsAlongSide; ++j) {
+        // A square of starts, folded into the triangle.
+        double u = (i + 0.5) / kStartsAlongSide, v = (j + 0.5) / kStartsAlongSide;
+        if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+        const auto solved = Solve(u, v);
+        if (solved && *solved < distance) found = distance = *solved;
+      }
+    }
+    return found;
+  }
+
+ private:
+  Doubles PointAt(double u, double v) const {
+    return Plus(Plus(Times(u, corners_[0]), Times(v, corners_[1])),
+                Times(1.0 - u - v, corners_[2]));
+  }
+  // What of x lies across the normal, along two of the triangle's sides.
+  std::array<double, 2> At(double u, double v, double* sine) const {
+    const Doubles x = PointAt(u, v);
+    const Doubles n = Unit(BlendedNormal<double>(normals_, {u, v, 1.0 - u - v}));
+    const Doubles across = Minus(x, Times(Inner(n, x), n));
+    *sine = Length(across) / Length(x);
+    return {Inner(across, Minus(corners_[0], corners_[2])),
+            Inner(across, Minus(corners_[1], corners_[2]))};
+  }
+
+  std::optional<double> Solve(double u, double v) const {
+    for (int i = 0; i < kSteps; ++i) {
+      double sine = 1.0, ignored;
+      const auto f = At(u, v, &sine);
+      if (!std::isfinite(sine)) return std::nullopt;
+      if (sine < kSolved) {
+        if (std::min({u, v, 1.0 - u - v}) < kInside) return std::nullopt;
+        return Length(PointAt(u, v));
+      }
+      const auto fu = At(u + kDifference, v, &ignored), fv = At(u, v + kDifference, &ignored);
+      const double a = (fu[0] - f[0]) / kDifference, b = (fv[0] - f[0]) / kDifference,
+                   c = (fu[1] - f[1]) / kDifference, d = (fv[1] - f[1]) / kDifference;
+      const double determinant = a * d - b * c;
+      if (determinant == 0.0) return std::nullopt;
+      double du = (b * f[1] - d * f[0]) / determinant, dv = (c * f[0] - a * f[1]) / determinant;
+      const double length = std::hypot(du, dv);
+      if (!(length < 1e6)) return std::nullopt;
+      if (length > 0.25) du *= 0.25 / length, dv *= 0.25 / length;
+      u += du, v += dv;
+      // Beyond, the plane has solutions that are not the triangle's.
+      if (std::min({u, v, 1.0 - u - v}) < -0.5) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  const std::array<Doubles, 3> corners_, normals_;
+};
+
+}  // namespace
+
+std::vector<std::string> FindNearerPhong(const std::vector<Vector3d>& vertices,
+                                         const std::vector<std::array<int, 3>>& triangles,
+                                         const std::vector<Vector3d>& triangle_normals,
+                                         double distance) {
+  std::vector<Doubles> normals(vertices.size(), Doubles{0.0, 0.0, 0.0});
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d &x = vertices[triangles[t][k]], &y = vertices[triangles[t][(k + 1) % 3]],
+                     &z = vertices[triangles[t][(k + 2) % 3]];
+      const Doubles u = ToTriple(y - x), v = ToTriple(z - x);
+      const double angle = Atan2(Length(Outer(u, v)), Inner(u, v));
+      Doubles& normal = normals[triangles[t][k]];
+      normal = Plus(normal, Times(angle, ToTriple(triangle_normals[t])));
+    }
+  }
+  for (Doubles& normal : normals) normal = Unit(normal);
+  const double nearer = distance * (1.0 - 1e-6);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& [i, j, k] = triangles[t];
+    if (!(NearestOnTriangle(vertices[i], vertices[j], vertices[k]).norm() < nearer)) continue;
+    const Vector3d area = (vertices[j] - vertices[i]).cross(vertices[k] - vertices[i]);
+    if (!(area.dot(vertices[i]) > 0.0)) continue;  // it faces inward
+    const TriangleSearch search(
+        {ToTriple(vertices[i]), ToTriple(vertices[j]), ToTriple(vertices[k])},
+        {normals[i], normals[j], normals[k]});
+    if (const auto found = search.Nearer(nearer)) {
+      std::ostringstream out;
+      out.precision(17);
+      out << "phong: triangle " << t << " has a projection at " << *found << ", nearer than "
+          << distance;
+      return {out.str()};
+    }
+  }
+  return {};
+}
+
+}  // namespace touchstone::exact
