@@ -24,6 +24,9 @@ constexpr double kConverged = 1e-11;
 // For differences, over h: the square root of roundings would be 1e-7; fields bend little over h.
 constexpr double kDifference = 1e-6;
 constexpr double kLongestStep = 0.25;  // over h
+// |det J| over its trace squared, below which a solution is about to vanish, or has: near a fold at
+// distance δ it is √δ, so that what is left of one that is gone by more than 1e-12 is none.
+constexpr double kFolding = 1e-6;
 // A step that is put back to this much of its length does not leave where it is.
 constexpr double kNoMove = 1e-3;
 
@@ -74,7 +77,8 @@ class MeanWalk {
       const Axes axes = AxesOf(triangle_);
       Matrix2d jacobian;
       if (!Jacobian(axes, here, &jacobian)) return Left(at_);
-      const bool is_stable = jacobian.determinant() > 0.0 && jacobian.trace() > 0.0;
+      const double trace = jacobian.trace();
+      const bool is_stable = trace > 0.0 && jacobian.determinant() > kFolding * trace * trace;
       if (residual < kConverged && is_stable) {
         best.status = MeanProjectionStatus::kFound;
         best.point = PointHere(residual);
