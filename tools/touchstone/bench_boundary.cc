@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -44,9 +45,9 @@ bool Wants(const BoundaryArguments& arguments, const char* part) {
 
 void ShowNef(const NefRow& row) {
   std::cerr << row.pair << ", " << row.faces_a << " x " << row.faces_b << ": "
-            << ShortDouble(1000.0 * row.seconds) << " ms, Nef ";
+            << Fixed(1000.0 * row.seconds, 1) << " ms, Nef ";
   if (row.nef_seconds) {
-    std::cerr << ShortDouble(*row.nef_seconds) << " s, " << (row.is_same ? "same" : "NOT THE SAME");
+    std::cerr << Fixed(*row.nef_seconds, 2) << " s, " << (row.is_same ? "same" : "NOT THE SAME");
   } else {
     std::cerr << "over " << kNefSeconds << " s";
   }
@@ -217,16 +218,33 @@ void WriteMarkdown(const std::string& folder, const Results& results) {
   TargetTable(results).PrintMarkdown(targets);
 }
 
-void WriteFigure(const std::string& folder, const Results& results) {
-  PrepareFolder(folder);
-  std::ofstream file(folder + "/boundary-growth.csv");
-  file << "scene,faces,facets,seconds,exponent\n";
-  for (const BoundaryRow& row : results.growth) {
-    file << row.scene << ',' << row.faces_a << ',' << ShortDouble(row.mean_facets) << ','
-         << ShortDouble(row.median_seconds) << ',' << ShortDouble(results.fit.exponent) << '\n';
-  }
+void WriteFile(const std::string& path, const std::function<void(std::ostream&)>& write) {
+  std::ofstream file(path);
+  write(file);
   file.close();
-  if (!file) throw BadInput{"--svg: " + folder + " cannot be written"};
+  if (!file) throw BadInput{"--svg: " + path + " cannot be written"};
+}
+
+void WriteFigures(const std::string& folder, const Results& results) {
+  PrepareFolder(folder);
+  if (!results.nef.empty()) {
+    WriteFile(folder + "/boundary-nef.csv", [&](std::ostream& file) {
+      file << "pair,faces_a,faces_b,seconds,nef_seconds,same\n";
+      for (const NefRow& row : results.nef) {
+        file << '"' << row.pair << "\"," << row.faces_a << ',' << row.faces_b << ','
+             << Fixed(row.seconds, 5) << ',' << (row.nef_seconds ? Fixed(*row.nef_seconds, 2) : "")
+             << ',' << (row.nef_seconds ? row.is_same ? "yes" : "no" : "") << '\n';
+      }
+    });
+  }
+  if (results.growth.empty()) return;
+  WriteFile(folder + "/boundary-growth.csv", [&](std::ostream& file) {
+    file << "scene,faces,facets,seconds,exponent\n";
+    for (const BoundaryRow& row : results.growth) {
+      file << row.scene << ',' << row.faces_a << ',' << Fixed(row.mean_facets, 1) << ','
+           << Fixed(row.median_seconds, 6) << ',' << Fixed(results.fit.exponent, 4) << '\n';
+    }
+  });
   PlotFigures(folder);
 }
 
@@ -240,7 +258,7 @@ int RunBoundaryCommand(const BoundaryArguments& arguments) {
   }
   const Results results = Measure(arguments);
   if (!arguments.markdown.empty()) WriteMarkdown(arguments.markdown, results);
-  if (!arguments.svg.empty() && !results.growth.empty()) WriteFigure(arguments.svg, results);
+  if (!arguments.svg.empty()) WriteFigures(arguments.svg, results);
   if (arguments.json) {
     std::cout << ToJson(results).dump(2) << '\n';
   } else {
@@ -276,7 +294,8 @@ void AddBenchBoundary(CLI::App& bench, int& exit_code) {
   command->add_option("--seed", arguments->seed, "which rotations")->capture_default_str();
   command->add_option("--meshes", arguments->meshes, "folder of closed meshes for membership");
   command->add_option("--markdown", arguments->markdown, "folder for the tables");
-  command->add_option("--svg", arguments->svg, "folder for the plot of time against facets");
+  command->add_option("--svg", arguments->svg,
+                      "folder for boundary-growth.csv and its plot, and boundary-nef.csv");
   command->add_flag("--json", arguments->json, "print JSON");
   command->callback([arguments, &exit_code] { exit_code = RunBoundaryCommand(*arguments); });
 }
