@@ -52,6 +52,9 @@ struct Times {
 constexpr double kPhongRounding = 0x1p-32;  // of the size
 constexpr double kPhongResidual = 1e-8;
 
+// Enough for steps of a degree, of which 1000 are small, and 30 bisections on the way.
+constexpr int kStepsOfABisection = 4000;
+
 void WriteDirection(const Vector3d& q, std::ostream& out) {
   const Vector3d u = q.stableNormalized();
   out << ',' << ShortDouble(q.norm());
@@ -183,23 +186,25 @@ bool HasJump(const std::function<Vector3d(double)>& at, double from, double to) 
 
 CpdEvent FindCpdEvent(const PaperScene& scene, ContinuousPenetrationDepth* solver,
                       const ContinuousDepthState& state, double from, double to) {
-  ContinuousDepthState at_from = state;
-  solver->set_state(at_from);
-  ContinuousDepthResult last = solver->Update(scene.PoseAt(to));
-  for (int i = 0; i < kBisections && !IsSmallStep(at_from.translation, last.translation); ++i) {
-    const double middle = 0.5 * (from + to);
-    solver->set_state(at_from);
-    const ContinuousDepthResult result = solver->Update(scene.PoseAt(middle));
-    const auto at_middle = solver->state();
-    if (!at_middle || !IsSmallStep(at_from.translation, result.translation)) {
-      to = middle, last = result;
-      continue;
+  ContinuousDepthState here = state;
+  double width = to - from;
+  const double least = std::ldexp(width, -kBisections);
+  for (int i = 0; i < kStepsOfABisection && from < to; ++i) {
+    const double next = from + width < to ? from + width : to;
+    solver->set_state(here);
+    const ContinuousDepthResult result = solver->Update(scene.PoseAt(next));
+    const auto there = solver->state();
+    if (there && IsSmallStep(here.translation, result.translation)) {
+      here = *there;
+      from = next;
+      width *= 2.0;
+    } else if (width <= least) {
+      return {true, result.iterations > 0};
+    } else {
+      width *= 0.5;
     }
-    // Followed to the middle: is the rest of the step small from there?
-    from = middle, at_from = *at_middle;
-    last = solver->Update(scene.PoseAt(to));
   }
-  return {!IsSmallStep(at_from.translation, last.translation), last.iterations > 0};
+  return {from < to, false};
 }
 
 std::vector<std::string> JudgedMeshDepth(const TriangleMesh& a, const TriangleMesh& b,

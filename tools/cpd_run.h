@@ -48,8 +48,9 @@ inline constexpr int kBisections = 30;
 bool IsSmallStep(const Eigen::Vector3d& p, const Eigen::Vector3d& q);
 bool HasJump(const std::function<Eigen::Vector3d(double)>& at, double from, double to);
 
-// Whether CPD jumps between two moments, followed from the state at the first, and whether the
-// triangles round the solution changed there.
+// Whether CPD jumps between two moments: followed from the state at the first in steps that are
+// halved until they are small, all the way; a step that is not small after all bisections is a
+// jump. And whether the triangles round the solution changed there.
 struct CpdEvent {
   bool jumps = false, by_combinatorics = false;
 };
