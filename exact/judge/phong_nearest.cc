@@ -18,7 +18,7 @@ using Doubles = Triple<double>;
 constexpr int kStartsAlongSide = 5;
 constexpr int kSteps = 30;
 constexpr double kDifference = 1e-7;  // in λ: the square root of roundings
-constexpr double kSolved = 1e-11;     // differences leave Newton linear, by five digits a step
+constexpr double kSolved = 1e-13;     // a few roundings; differences gain five digits a step
 constexpr double kInside = 1e-6;      // in λ: solutions on sides are as well a neighbour's
 
 Doubles ToTriple(const Vector3d& v) { return {v[0], v[1], v[2]}; }
