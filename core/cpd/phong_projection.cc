@@ -85,6 +85,13 @@ class Projection {
           }
         }
       }
+      // And on the sides: what lies next to one is overshot from within.
+      for (int k = 0; k < 3; ++k) {
+        for (int i = 1; i < 4; ++i) {
+          Begin(0.25 * i * Vector3d::Unit(k) + (1.0 - 0.25 * i) * Vector3d::Unit((k + 1) % 3),
+                begin, points);
+        }
+      }
     }
     return static_cast<int>(points->size() - begin);
   }

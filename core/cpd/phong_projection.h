@@ -46,8 +46,8 @@ enum class PhongInterpolation : std::uint8_t {
 
 struct PhongOptions {
   PhongInterpolation interpolation = PhongInterpolation::kTangentBasis;
-  // Newton begins at the barycentre only, as in the paper; or also at those of the 16 triangles
-  // that two rounds of midpoints make, which finds solutions beside the first.
+  // Newton begins at the barycentre only, as in the paper; or also at those of the 16 triangles of
+  // two rounds of midpoints, and on the sides, which finds solutions beside the first.
   bool find_all = false;
   // Where Newton begins first, if anywhere but there.
   std::optional<Eigen::Vector3d> begin_at = std::nullopt;
