@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "touchstone/core/minkowski/arrangement_internal.h"
+#include "touchstone/core/minkowski/box_lanes_internal.h"
 #include "touchstone/core/minkowski/cells_internal.h"
 #include "touchstone/core/minkowski/local_surface_internal.h"
 #include "touchstone/core/minkowski/patches_internal.h"
@@ -230,7 +231,7 @@ class Assembler {
     for (int i = 0; i < static_cast<int>(complex_.pieces.size()); ++i) {
       const Piece& piece = complex_.pieces[i];
       if (!is_near_[i] || (is_near_kept[piece.from] && is_near_kept[piece.to])) continue;
-      const std::vector<std::array<int, 2>>& planes = PlanesOf(i);
+      const std::vector<FacingPlane>& planes = PlanesOf(i);
       for (const int point : {piece.from, piece.to}) {
         for (const auto& [plane, side] : planes) planes_of_points.push_back({point, plane, side});
       }
@@ -257,7 +258,7 @@ class Assembler {
   }
 
   // The planes of the cells at a piece, by which way they face.
-  const std::vector<std::array<int, 2>>& PlanesOf(int piece) {
+  const std::vector<FacingPlane>& PlanesOf(int piece) {
     planes_.clear();
     for (const int c : patches_.CellsAt(piece)) {
       const int root = arrangement_.groups[cell(c).group].plane;
@@ -275,13 +276,49 @@ class Assembler {
     const auto last = std::unique(planes_of_points.begin(), planes_of_points.end());
     for (auto first = planes_of_points.begin(); first != last;) {
       const int point = (*first)[0];
-      const auto end =
-          std::find_if(first, last, [&](const std::array<int, 3>& x) { return x[0] != point; });
-      if (end - first >= 4 && !is_near_kept[point] && IsInBall(point) &&
+      planes_.clear();
+      for (; first != last && (*first)[0] == point; ++first) {
+        planes_.push_back({(*first)[1], (*first)[2]});
+      }
+      if (planes_.size() >= 4 && !is_near_kept[point] && IsInBall(point) &&
+          (!FaceOneSide(geometry_, planes_) || MayBeWithinFacet(point)) &&
           !IsMiddleInM(point, point)) {
         sum_.points.push_back(AddPoint(point));
       }
-      first = end;
+    }
+  }
+
+  // Whether a facet of another plane than `planes_` may hold the point, as far as doubles tell: one
+  // that only a corner or an edge of others touches is not cut there.
+  bool MayBeWithinFacet(int point) {
+    if (facet_boxes_.empty()) ListFacetBoxes();
+    const SumPoint& x = geometry_.point(point);
+    const Vector3d reach = Vector3d::Constant(x.error);
+    hits_.clear();
+    facet_boxes_.Meeting({x.rounded - reach, x.rounded + reach}, &hits_);
+    return std::any_of(hits_.begin(), hits_.end(), [&](int f) {
+      const int root = geometry_.Root(arrangement_.facets[f].plane);
+      if (std::any_of(planes_.begin(), planes_.end(),
+                      [&](const FacingPlane& each) { return each[0] == root; })) {
+        return false;
+      }
+      const SumPlane& plane = geometry_.plane(arrangement_.facets[f].plane);
+      const Vector3d way = x.rounded - plane.origin;
+      const double error =
+          1.01 * (x.error + plane.origin_error + kUnit * way.cwiseAbs().maxCoeff());
+      return TriageSign(HeightAlong(plane.normal, plane.normal_error, way, error)) == 0;
+    });
+  }
+
+  void ListFacetBoxes() {
+    for (const ArrangedFacet& facet : arrangement_.facets) {
+      Box3 box{At(facet.corners[0]), At(facet.corners[0])};
+      for (const int corner : facet.corners) {
+        const SumPoint& x = geometry_.point(corner);
+        box.low = box.low.cwiseMin(x.rounded - Vector3d::Constant(x.error));
+        box.high = box.high.cwiseMax(x.rounded + Vector3d::Constant(x.error));
+      }
+      facet_boxes_.Add(box);
     }
   }
 
@@ -324,8 +361,10 @@ class Assembler {
   Patches patches_;
   std::vector<char> is_kept_;                               // by patch
   std::vector<std::vector<std::array<int, 3>>> triangles_;  // by cell
-  std::vector<std::array<int, 2>> planes_;                  // scratch
+  std::vector<FacingPlane> planes_;                         // scratch
   std::vector<Piece> segments_;
+  BoxLanes facet_boxes_;  // of the arrangement's facets, once they are asked for
+  std::vector<int> hits_;
   std::vector<int> number_of_point_;  // in the sum; -1: not there
 };
 

@@ -2,6 +2,7 @@
 #include "touchstone/core/minkowski/sample_internal.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -176,6 +177,18 @@ Verdict VerdictBetween(SumGeometry* geometry, int x, int y, MembershipCache* cac
     if (verdict != Verdict::kUndecided) return verdict;
   }
   return Exactly(geometry->pair(), MeanOf(geometry, {x, y, y}), cache);
+}
+
+bool FaceOneSide(const SumGeometry& geometry, std::span<const FacingPlane> planes) {
+  Vector3d direction = Vector3d::Zero();
+  for (const auto& [plane, along] : planes) {
+    direction += (along != 0 ? 1.0 : -1.0) * geometry.plane(plane).normal.normalized();
+  }
+  return std::all_of(planes.begin(), planes.end(), [&](const FacingPlane& each) {
+    const SumPlane& own = geometry.plane(each[0]);
+    const int sign = TriageSign(HeightAlong(own.normal, own.normal_error, direction, 0.0));
+    return sign == (each[1] != 0 ? 1 : -1);
+  });
 }
 
 double SquaredArea(const SumGeometry& geometry, const std::array<int, 3>& triangle) {
