@@ -12,6 +12,7 @@
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/minkowski/arrangement_internal.h"
 #include "touchstone/core/minkowski/cells_internal.h"
+#include "touchstone/core/minkowski/facet_order_internal.h"
 #include "touchstone/core/minkowski/flat_table_internal.h"
 #include "touchstone/core/minkowski/patches_internal.h"
 #include "touchstone/core/minkowski/sample_internal.h"
@@ -36,7 +37,12 @@ class Builder {
   }
 
   SumBoundary Run() {
-    arrangement_ = internal::Arrange(&geometry_, result_.facets);
+    // Along a curve, and named at the end as they are listed.
+    number_ = internal::AlongCurve(pair_, result_.facets);
+    std::vector<SumFacet> facets;
+    facets.reserve(number_.size());
+    for (const int f : number_) facets.push_back(result_.facets[f]);
+    arrangement_ = internal::Arrange(&geometry_, facets);
     complex_ = internal::FindCells(&geometry_, arrangement_);
     patches_.Form(complex_, {});
     ClassifyPatches();
@@ -121,7 +127,7 @@ class Builder {
       if (!is_along) std::swap(t[1], t[2]);
       for (int& point : t) point = AddPoint(point);
       (is_sheet ? result_.sheets : result_.triangles).push_back(t);
-      (is_sheet ? result_.facet_of_sheet : result_.facet_of_triangle).push_back(facet);
+      (is_sheet ? result_.facet_of_sheet : result_.facet_of_triangle).push_back(number_[facet]);
     }
   }
 
@@ -133,6 +139,7 @@ class Builder {
       result_.vertices.push_back(x.rounded / pair_.scale());
       result_.rounding = std::max(result_.rounding, x.error / pair_.scale());
       result_.names.push_back(geometry_.NameOf(point));
+      for (int& f : result_.names.back().facets) f = f < 0 ? f : number_[f];
     }
     return number;
   }
@@ -149,7 +156,9 @@ class Builder {
     for (int i = 0; i < piece_count(); ++i) {
       const Piece& piece = complex_.pieces[i];
       if (FacingSidesAt(i) < 3 || IsNearKept(i)) continue;
-      if (PlanesOf(i).size() < 3 || IsMiddleInM(piece.from, piece.to)) continue;
+      planes_.clear();
+      AddPlanes(i);
+      if (planes_.size() < 3 || IsMiddleInM(piece.from, piece.to)) continue;
       segments.push_back(piece);
     }
     for (const Piece& piece : segments) {
@@ -176,17 +185,17 @@ class Builder {
     (*marks)[piece.from] = (*marks)[piece.to] = 1;
   }
 
-  // The planes of the cells at a piece, by which way they face.
-  const std::vector<std::pair<int, bool>>& PlanesOf(int piece) {
-    planes_.clear();
+  // The planes of the cells at a piece, by which way they face, each once.
+  void AddPlanes(int piece) {
+    const auto add = [this](int plane, bool is_along) {
+      const std::pair<int, bool> side(plane, is_along);
+      if (std::find(planes_.begin(), planes_.end(), side) == planes_.end()) planes_.push_back(side);
+    };
     for (const int c : patches_.CellsAt(piece)) {
       const int root = arrangement_.groups[cell(c).group].plane;
-      if (!cell(c).along.empty()) planes_.emplace_back(root, true);
-      if (!cell(c).against.empty()) planes_.emplace_back(root, false);
+      if (!cell(c).along.empty()) add(root, true);
+      if (!cell(c).against.empty()) add(root, false);
     }
-    std::sort(planes_.begin(), planes_.end());
-    planes_.erase(std::unique(planes_.begin(), planes_.end()), planes_.end());
-    return planes_;
   }
 
   void AddLonePoints(const std::vector<char>& is_near_kept) {
@@ -198,17 +207,10 @@ class Builder {
             }
           }
         });
-    std::vector<std::pair<int, bool>> planes;
     for (int point = 0; point < geometry_.point_count(); ++point) {
-      planes.clear();
-      for (const int piece : pieces_of_point.Of(point)) {
-        for (const auto& plane : PlanesOf(piece)) {
-          if (std::find(planes.begin(), planes.end(), plane) == planes.end()) {
-            planes.push_back(plane);
-          }
-        }
-      }
-      if (planes.size() < 4 || IsMiddleInM(point, point)) continue;
+      planes_.clear();
+      for (const int piece : pieces_of_point.Of(point)) AddPlanes(piece);
+      if (planes_.size() < 4 || IsMiddleInM(point, point)) continue;
       result_.points.push_back(AddPoint(point));
     }
   }
@@ -274,6 +276,7 @@ class Builder {
   MembershipCache membership_cache_;
   internal::Patches patches_;
   std::vector<char> is_kept_;                 // by patch
+  std::vector<int> number_;                   // of the arrangement's facets, in the result's list
   std::vector<int> number_of_point_;          // in the result; -1: not there
   std::vector<std::pair<int, bool>> planes_;  // scratch
 };
