@@ -122,13 +122,20 @@ class Builder {
     const Cell& own = cell(c);
     const bool is_sheet = !own.along.empty() && !own.against.empty();
     const bool is_along = !own.along.empty();
-    const int facet = is_along ? own.along[0] : own.against[0];
+    const int facet = FirstOf(is_along ? own.along : own.against);
     for (std::array<int, 3> t : TrianglesOf(c)) {
       if (!is_along) std::swap(t[1], t[2]);
       for (int& point : t) point = AddPoint(point);
       (is_sheet ? result_.sheets : result_.triangles).push_back(t);
-      (is_sheet ? result_.facet_of_sheet : result_.facet_of_triangle).push_back(number_[facet]);
+      (is_sheet ? result_.facet_of_sheet : result_.facet_of_triangle).push_back(facet);
     }
+  }
+
+  // The first in the result's list of facets that cover a cell.
+  int FirstOf(std::span<const int> facets) const {
+    int first = number_[facets[0]];
+    for (const int f : facets) first = std::min(first, number_[f]);
+    return first;
   }
 
   int AddPoint(int point) {

@@ -8,9 +8,7 @@
 namespace touchstone::internal {
 namespace {
 
-// Coordinates of a pair are at most one in magnitude, those of M at most two.
 constexpr int kBits = 20;
-constexpr double kSpan = 2.0;
 
 // The lowest 20 bits, each followed by two zeros.
 std::uint64_t Spread(std::uint64_t bits) {
@@ -21,10 +19,11 @@ std::uint64_t Spread(std::uint64_t bits) {
   return (bits | bits << 2) & 0x1249249249249249;
 }
 
+// Of a point whose coordinates are at most one in magnitude.
 std::uint64_t KeyOf(const Eigen::Vector3d& x) {
   std::uint64_t key = 0;
   for (int k = 0; k < 3; ++k) {
-    const double unit = std::clamp((x[k] + kSpan) / (2.0 * kSpan), 0.0, 1.0);
+    const double unit = std::clamp(0.5 * (x[k] + 1.0), 0.0, 1.0);
     key |= Spread(static_cast<std::uint64_t>(unit * ((1 << kBits) - 1))) << k;
   }
   return key;
@@ -35,9 +34,25 @@ int CornerOf(const TriangleMesh& mesh, bool is_face, bool is_edge, int feature) 
   return is_edge ? mesh.tail(mesh.half_edge_of(feature)) : feature;
 }
 
+// The vertices times a matrix, and the largest of their coordinates.
+struct Turned {
+  Turned(const TriangleMesh& mesh, const Eigen::Matrix3d& rotation) {
+    points.reserve(static_cast<std::size_t>(mesh.vertex_count()));
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+      points.push_back(rotation * mesh.vertex(v));
+      extent = std::max(extent, points.back().cwiseAbs().maxCoeff());
+    }
+  }
+  std::vector<Eigen::Vector3d> points;
+  double extent = 0.0;
+};
+
 }  // namespace
 
 std::vector<int> AlongCurve(const MeshPair& pair, std::span<const SumFacet> facets) {
+  const Turned a(pair.a().mesh, Eigen::Matrix3d::Identity());
+  const Turned b(pair.b().mesh, pair.pose().rotation());
+  const double extent = a.extent + b.extent;
   std::vector<std::pair<std::uint64_t, int>> keys;
   keys.reserve(facets.size());
   for (const SumFacet& facet : facets) {
@@ -46,8 +61,7 @@ std::vector<int> AlongCurve(const MeshPair& pair, std::span<const SumFacet> face
         CornerOf(pair.a().mesh, facet.kind == SumFacetKind::kFaceVertex, has_edges, facet.a);
     const int v =
         CornerOf(pair.b().mesh, facet.kind == SumFacetKind::kVertexFace, has_edges, facet.b);
-    keys.emplace_back(KeyOf(pair.a().points[u] - pair.b().points[v]),
-                      static_cast<int>(keys.size()));
+    keys.emplace_back(KeyOf((a.points[u] - b.points[v]) / extent), static_cast<int>(keys.size()));
   }
   std::sort(keys.begin(), keys.end());
   std::vector<int> order;

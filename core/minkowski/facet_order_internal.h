@@ -11,7 +11,8 @@
 namespace touchstone::internal {
 
 // The facets' numbers along a curve that fills space (Morton 1966), by one corner of each: what
-// meets then lies close together in memory, too. Ties keep their order. Complexity: O(n log n).
+// meets then lies close together in memory, too. Ties keep their order. The order depends neither
+// on B's translation nor on powers of two in the scale. Complexity: O(n log n).
 std::vector<int> AlongCurve(const MeshPair& pair, std::span<const SumFacet> facets);
 
 }  // namespace touchstone::internal
