@@ -275,16 +275,21 @@ std::optional<double> PeakMemoryOfTori(int faces) {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-std::vector<NefRow> CompareWithNef(NefPairs pairs, double limit_seconds, std::uint64_t seed,
+std::vector<NefRow> CompareWithNef(NefPairs which, int first, double limit_seconds,
+                                   std::uint64_t seed,
                                    const std::function<void(const NefRow&)>& report) {
   std::vector<NefRow> rows;
   Random random("boundary_nef", seed, 0);
-  for (const NefPair& names : ListNefPairs(pairs)) {
+  const std::vector<NefPair> pairs = ListNefPairs(which);
+  for (int i = 0; i < std::ssize(pairs); ++i) {
+    const NefPair& names = pairs[i];
+    const Eigen::Matrix3d turned = random.Rotation();
+    if (i < first) continue;
     const TriangleMesh a = MustBuild(NamedShape(names.a, names.faces_a)),
                        b = MustBuild(NamedShape(names.b, names.faces_b));
     for (const bool is_turned : {false, true}) {
       const Eigen::Matrix3d rotation =
-          is_turned ? random.Rotation() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+          is_turned ? turned : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
       const RelativePose pose = *RelativePose::Make(rotation, Vector3d::Zero());
       NefRow row{names.a + '/' + names.b + (is_turned ? ", turned" : ""), a.face_count(),
                  b.face_count()};

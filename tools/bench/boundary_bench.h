@@ -61,7 +61,9 @@ enum class NefPairs {
   kMany,
   kAll,  // every two shapes, of few faces, the fewest first: an hour or more
 };
-std::vector<NefRow> CompareWithNef(NefPairs pairs, double limit_seconds, std::uint64_t seed,
+// From the pair numbered `first` on.
+std::vector<NefRow> CompareWithNef(NefPairs which, int first, double limit_seconds,
+                                   std::uint64_t seed,
                                    const std::function<void(const NefRow&)>& report = {});
 
 // Membership of translations anywhere in the box of M, cold but for memory.

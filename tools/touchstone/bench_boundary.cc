@@ -22,6 +22,7 @@ namespace {
 
 struct BoundaryArguments {
   bool quick = false, all_pairs = false, json = false;
+  int first_pair = 0;
   std::uint64_t seed = 1;
   std::string part = "all";
   std::string markdown, svg, meshes;
@@ -75,8 +76,8 @@ Results Measure(const BoundaryArguments& arguments) {
     const NefPairs pairs = arguments.all_pairs ? NefPairs::kAll
                            : quick             ? NefPairs::kFew
                                                : NefPairs::kMany;
-    results.nef =
-        CompareWithNef(pairs, kNefSeconds, arguments.seed, arguments.all_pairs ? ShowNef : nullptr);
+    results.nef = CompareWithNef(pairs, arguments.first_pair, kNefSeconds, arguments.seed,
+                                 arguments.all_pairs ? ShowNef : nullptr);
   }
   if (Wants(arguments, "membership")) {
     results.membership = TimeMembership(arguments.meshes, quick ? 5000 : 50000, arguments.seed);
@@ -291,6 +292,9 @@ void AddBenchBoundary(CLI::App& bench, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--all-pairs", arguments->all_pairs,
                     "against Nef polyhedra: every two shapes, told as they come; an hour or more");
+  command->add_option("--first-pair", arguments->first_pair, "with --all-pairs: where to begin")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_option("--seed", arguments->seed, "which rotations")->capture_default_str();
   command->add_option("--meshes", arguments->meshes, "folder of closed meshes for membership");
   command->add_option("--markdown", arguments->markdown, "folder for the tables");
