@@ -8,6 +8,7 @@
 
 #include "touchstone/core/cpd/contact_name_internal.h"
 #include "touchstone/core/cpd/depth_search_internal.h"
+#include "touchstone/core/cpd/nearest_on_triangle_internal.h"
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/minkowski/local_sum.h"
 
@@ -139,24 +140,6 @@ void ConfirmExactly(const MeshPair& pair, DepthAnswer* answer, MembershipCache* 
   answer->is_exact = true;
 }
 
-Vector3d NearestOnSegment(const Vector3d& a, const Vector3d& b) {
-  const Vector3d ab = b - a;
-  const double squared = ab.squaredNorm();
-  return squared > 0.0 ? Vector3d(a + std::clamp(-a.dot(ab) / squared, 0.0, 1.0) * ab) : a;
-}
-
-Vector3d NearestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d normal = (b - a).cross(c - a);
-  const bool is_over = normal.dot((b - a).cross(-a)) > 0.0 && normal.dot((c - b).cross(-b)) > 0.0 &&
-                       normal.dot((a - c).cross(-c)) > 0.0;
-  if (is_over) return normal * (normal.dot(a) / normal.squaredNorm());
-  Vector3d nearest = NearestOnSegment(a, b);
-  for (const Vector3d& x : {NearestOnSegment(b, c), NearestOnSegment(c, a)}) {
-    if (x.squaredNorm() < nearest.squaredNorm()) nearest = x;
-  }
-  return nearest;
-}
-
 // The nearest point of ∂M within the upper bound, by the exact arrangement of the facets there.
 void DecideByBoundary(const MeshPair& pair, MeshDepthResult* result) {
   LocalMinkowskiSum local(pair.a().mesh, pair.b().mesh);
@@ -165,7 +148,9 @@ void DecideByBoundary(const MeshPair& pair, MeshDepthResult* result) {
   if (!sum.status.ok()) return;
   Vector3d nearest = result->translation;
   SumFacet facet{SumFacetKind::kFaceVertex, false, -1, -1};
-  const auto& at = sum.vertices;
+  const auto nearest_on = [&at = sum.vertices](int a, int b, int c) {
+    return internal::NearestOnTriangle(Vector3d::Zero(), at[a], at[b], at[c]);
+  };
   const auto take = [&](const Vector3d& x, int number) {
     if (!(x.squaredNorm() < nearest.squaredNorm())) return;
     nearest = x;
@@ -173,14 +158,14 @@ void DecideByBoundary(const MeshPair& pair, MeshDepthResult* result) {
   };
   for (std::size_t t = 0; t < sum.triangles.size(); ++t) {
     const auto& [a, b, c] = sum.triangles[t];
-    take(NearestOnTriangle(at[a], at[b], at[c]), sum.facet_of_triangle[t]);
+    take(nearest_on(a, b, c), sum.facet_of_triangle[t]);
   }
   for (std::size_t t = 0; t < sum.sheets.size(); ++t) {
     const auto& [a, b, c] = sum.sheets[t];
-    take(NearestOnTriangle(at[a], at[b], at[c]), sum.facet_of_sheet[t]);
+    take(nearest_on(a, b, c), sum.facet_of_sheet[t]);
   }
-  for (const auto& [a, b] : sum.segments) take(NearestOnSegment(at[a], at[b]), -1);
-  for (const int p : sum.points) take(at[p], -1);
+  for (const auto& [a, b] : sum.segments) take(nearest_on(a, b, b), -1);
+  for (const int p : sum.points) take(sum.vertices[p], -1);
   // Corners are off by `rounding` in each coordinate, the foot by as much again.
   const double distance = nearest.norm();
   const double error = 4.0 * sum.rounding + 0x1p-48 * (distance + 1.0 / pair.scale());
