@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "touchstone/core/mesh/box_tree.h"
-#include "touchstone/core/minkowski/box_lanes_internal.h"
 #include "touchstone/core/minkowski/equal_points_internal.h"
+#include "touchstone/core/minkowski/facet_crossing_internal.h"
 #include "touchstone/core/minkowski/flat_table_internal.h"
 
 namespace touchstone::internal {
@@ -17,93 +16,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The sides of another plane that a facet's corners lie on.
-using Sides = std::array<signed char, 4>;
-
-// What a plane cuts from a convex facet.
-struct Trace {
-  int from, to;     // points
-  bool is_on_edge;  // along an edge of the facet, rather than through its inside
-};
-
-// Facets' planes and corners side by side, for a first look at many pairs.
-class FacetTriage {
- public:
-  // With n, o and x the roundings of a plane's normal and origin and of a corner, S the sum of n's
-  // coordinates and L the largest coordinate of any corner, in size: n.(x - o) is off by at most
-  // 3 e_n (2 L + 2 e) + 2 e S where no normal is off by more than e_n, nor a corner by more than e;
-  // and n.x - n.o is rounded along paths of three, three and one operations, by (3 + 3 + 2) S L
-  // units.
-  FacetTriage(const SumGeometry& geometry, std::span<const ArrangedFacet> facets) {
-    double largest = 0.0, error = 0.0;
-    for (const ArrangedFacet& f : facets) {
-      for (const int corner : f.corners) {
-        const SumPoint& point = geometry.point(corner);
-        largest = std::max(largest, point.rounded.cwiseAbs().maxCoeff());
-        error = std::max(error, point.error);
-      }
-    }
-    entries_.reserve(facets.size());
-    for (const ArrangedFacet& f : facets) {
-      const SumPlane& plane = geometry.plane(f.plane);
-      const double sum = plane.normal.cwiseAbs().sum();
-      Entry& entry = entries_.emplace_back();
-      entry.normal = plane.normal;
-      entry.offset = plane.normal.dot(plane.origin);
-      entry.bound = 1.01 * (6.0 * plane.normal_error * (largest + error) + 2.0 * error * sum +
-                            8.1 * kUnit * sum * largest) +
-                    0x1p-1000;
-      for (int k = 0; k < 4; ++k) {
-        const Vector3d& x = geometry.point(f.corners[k]).rounded;
-        for (int i = 0; i < 3; ++i) entry.corners[i][k] = x[i];
-      }
-    }
-  }
-
-  // Whether all corners of facet g, but one that lies in f's plane by its name, lie strictly on one
-  // side of that plane; false if doubles cannot tell.
-  bool IsClearBut(int f, int g, int corner, std::span<const int> corners_of_g) const {
-    const Entry& plane = entries_[f];
-    const auto& x = entries_[g].corners;
-    bool is_above = true, is_below = true;
-    for (int k = 0; k < 4; ++k) {
-      if (corners_of_g[k] == corner) continue;
-      const double height = plane.normal[0] * x[0][k] + plane.normal[1] * x[1][k] +
-                            plane.normal[2] * x[2][k] - plane.offset;
-      is_above &= height > plane.bound;
-      is_below &= height < -plane.bound;
-    }
-    return is_above || is_below;
-  }
-
-  // Whether all corners of facet g lie strictly on one side of f's plane; false if doubles cannot
-  // tell.
-  bool IsClear(int f, int g) const {
-    const Entry& plane = entries_[f];
-    const auto& x = entries_[g].corners;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (int k = 0; k < 4; ++k) {
-      const double height = plane.normal[0] * x[0][k] + plane.normal[1] * x[1][k] +
-                            plane.normal[2] * x[2][k] - plane.offset;
-      low = std::min(low, height);
-      high = std::max(high, height);
-    }
-    return low > plane.bound || high < -plane.bound;
-  }
-
- private:
-  struct Entry {
-    Vector3d normal;
-    double offset, bound;
-    double corners[3][4];
-  };
-  std::vector<Entry> entries_;
-};
-
 class Arranger {
  public:
   Arranger(SumGeometry* geometry, std::span<const SumFacet> names, std::span<const char> is_active)
       : geometry_(*geometry), is_active_(is_active) {
+    geometry_.Reserve(names.size());
     result_.facets.reserve(names.size());
     for (const SumFacet& name : names) {
       const SumCorners corners = CornersOf(geometry_.pair(), name);
@@ -117,10 +34,11 @@ class Arranger {
   }
 
   Arrangement Run() {
-    FindCrossingPairs();
+    const FacetPairs crossing = FindCrossingFacets(&geometry_, result_.facets, is_active_);
+    result_.box_pairs = crossing.box_pairs;
     FormGroups();
     AddEdges();
-    for (const CrossingPair& pair : crossing_) AddCrossing(pair);
+    for (const FacetPair& pair : crossing.pairs) AddCrossing(pair);
     ListWalls();
     for (const Group& group : result_.groups) CutWalls(group);
     ListPoints();
@@ -130,10 +48,6 @@ class Arranger {
   }
 
  private:
-  struct CrossingPair {
-    int f, g;
-    Sides of_f, of_g;
-  };
   struct GroupWall {
     int group;
     Wall wall;
@@ -146,162 +60,6 @@ class Arranger {
   int group_count() const { return static_cast<int>(result_.groups.size()); }
   bool IsActive(int f) const { return is_active_.empty() || is_active_[f] != 0; }
   bool GroupIsActive(int group) const { return group_is_active_[group] != 0; }
-
-  // Pairs of facets that are not clear of each other's planes; coplanar ones are united.
-  void FindCrossingPairs() {
-    std::vector<Box3> boxes;
-    boxes.reserve(result_.facets.size());
-    for (const ArrangedFacet& f : result_.facets) {
-      Box3 box{geometry_.point(f.corners[0]).rounded, geometry_.point(f.corners[0]).rounded};
-      for (const int corner : f.corners) {
-        const SumPoint& point = geometry_.point(corner);
-        box.low = box.low.cwiseMin(point.rounded - Vector3d::Constant(point.error));
-        box.high = box.high.cwiseMax(point.rounded + Vector3d::Constant(point.error));
-      }
-      boxes.push_back(box);
-    }
-    std::vector<std::pair<int, int>> near;
-    if (is_active_.empty()) {
-      BoxTree(boxes).MeetingItems(&near);
-    } else {
-      FindNearActive(boxes, &near);
-    }
-    result_.box_pairs = static_cast<long>(near.size());
-    const FacetTriage triage(geometry_, result_.facets);
-    std::erase_if(near, [&](const auto& pair) {
-      return triage.IsClear(pair.first, pair.second) || triage.IsClear(pair.second, pair.first);
-    });
-    // In a fixed order, however they were found: facets come sorted.
-    std::sort(near.begin(), near.end());
-    for (const auto& [f, g] : near) {
-      if (!MeetInACorner(triage, f, g)) ClassifyPair(f, g);
-    }
-  }
-
-  // Pairs with an active facet, whose boxes meet: each active one against all, in lanes. Few are
-  // active; a tree would find the pairs of the others, too.
-  void FindNearActive(std::span<const Box3> boxes, std::vector<std::pair<int, int>>* near) const {
-    const BoxLanes lanes(boxes);
-    std::vector<int> hits;
-    for (int f = 0; f < static_cast<int>(boxes.size()); ++f) {
-      if (!IsActive(f)) continue;
-      hits.clear();
-      lanes.Meeting(boxes[f], &hits);
-      for (const int g : hits) {
-        if (g != f && (!IsActive(g) || f < g)) near->push_back(std::minmax(f, g));
-      }
-    }
-  }
-
-  // Whether the facets share one corner and certainly nothing else: neither cuts the other then,
-  // and a plane may have two names. Round a vertex of M many facets do.
-  bool MeetInACorner(const FacetTriage& triage, int f, int g) const {
-    const ArrangedFacet &x = facet(f), &y = facet(g);
-    int place_x = -1, place_y = -1;
-    for (int k = 0; k < x.count; ++k) {
-      for (int l = 0; l < y.count; ++l) {
-        if (x.corners[k] != y.corners[l]) continue;
-        if (place_x >= 0) return false;
-        place_x = k;
-        place_y = l;
-      }
-    }
-    if (place_x < 0) return false;
-    const int corner = x.corners[place_x];
-    return triage.IsClearBut(f, g, corner, y.corners) ||
-           triage.IsClearBut(g, f, corner, x.corners) || PartAtCorner(x, place_x, y) ||
-           PartAtCorner(y, place_y, x);
-  }
-
-  // Whether the plane through an edge of x at a corner and parallel to a coordinate axis parts what
-  // else there is of x from all of y but that corner, as far as doubles can tell.
-  bool PartAtCorner(const ArrangedFacet& x, int place, const ArrangedFacet& y) const {
-    int axis = 0;
-    geometry_.plane(x.plane).normal.cwiseAbs().maxCoeff(&axis);
-    const int corner = x.corners[place];
-    for (const int step : {1, x.count - 1}) {
-      const int end = x.corners[(place + step) % x.count];
-      // The side that all but the two lie on; 0: not one side, or doubles cannot tell.
-      const auto side_of = [&](const ArrangedFacet& other) {
-        int side = 0;
-        for (int k = 0; k < other.count; ++k) {
-          const int point = other.corners[k];
-          if (point == corner || (&other == &x && point == end)) continue;
-          const int turn = SumGeometry::TriageTurn(geometry_.point(corner), geometry_.point(end),
-                                                   geometry_.point(point), axis);
-          if (turn == 0 || turn == -side) return 0;
-          side = turn;
-        }
-        return side;
-      };
-      const int side = side_of(x);
-      if (side != 0 && side_of(y) == -side) return true;
-    }
-    return false;
-  }
-
-  void ClassifyPair(int f, int g) {
-    if (AreNeighbors(f, g) || LieAcrossAnEdge(f, g)) return;
-    CrossingPair pair{f, g, {}, {}};
-    if (!FindSides(g, facet(f).plane, &pair.of_g)) return;
-    if (std::all_of(pair.of_g.begin(), pair.of_g.end(), [](int side) { return side == 0; })) {
-      geometry_.Unite(facet(f).plane, facet(g).plane);
-      return;
-    }
-    if (ShareAnEdge(f, g)) return;
-    if (!FindSides(f, facet(g).plane, &pair.of_f)) return;
-    crossing_.push_back(pair);
-  }
-
-  // Whether the facets are two faces of one body that share an edge, against one vertex of the
-  // other: embedded surfaces do not fold, so they share no more.
-  bool AreNeighbors(int f, int g) const {
-    const SumFacet &x = facet(f).name, &y = facet(g).name;
-    if (x.kind != y.kind || x.kind == SumFacetKind::kEdgeEdge) return false;
-    const bool is_face_of_a = x.kind == SumFacetKind::kFaceVertex;
-    if (is_face_of_a ? x.b != y.b : x.a != y.a) return false;
-    return ShareAnEdge(f, g);
-  }
-
-  // Whether the facets share an edge that they pass in opposite senses, and certainly face more or
-  // less the same way: if their planes are one they lie on either side of the edge, else they share
-  // no more than it. Neither cuts the other, and a plane may have two names.
-  bool LieAcrossAnEdge(int f, int g) const {
-    const ArrangedFacet &x = facet(f), &y = facet(g);
-    for (int k = 0; k < x.count; ++k) {
-      for (int l = 0; l < y.count; ++l) {
-        if (x.corners[k] != y.corners[(l + 1) % y.count] ||
-            x.corners[(k + 1) % x.count] != y.corners[l]) {
-          continue;
-        }
-        const SumPlane &p = geometry_.plane(x.plane), &q = geometry_.plane(y.plane);
-        return TriageSign(HeightAlong(p.normal, p.normal_error, q.normal, q.normal_error)) > 0;
-      }
-    }
-    return false;
-  }
-
-  // The sides that a facet's corners lie on; false if all lie strictly on one side.
-  bool FindSides(int f, int plane, Sides* sides) {
-    int least = 1, greatest = -1;
-    for (int k = 0; k < facet(f).count; ++k) {
-      const int side = geometry_.Side(facet(f).corners[k], plane);
-      (*sides)[k] = static_cast<signed char>(side);
-      least = std::min(least, side);
-      greatest = std::max(greatest, side);
-    }
-    return least <= 0 && greatest >= 0;
-  }
-
-  bool ShareAnEdge(int f, int g) const {
-    int shared = 0;
-    for (int k = 0; k < facet(f).count; ++k) {
-      for (int l = 0; l < facet(g).count; ++l) {
-        shared += facet(f).corners[k] == facet(g).corners[l];
-      }
-    }
-    return shared >= 2;
-  }
 
   void FormGroups() {
     // Facets' planes come first, so that their roots are below the number of facets.
@@ -386,50 +144,20 @@ class Arranger {
     return axis;
   }
 
-  // Nothing where the plane only touches a corner.
-  std::optional<Trace> TraceOf(int f, const Sides& sides, int plane) {
-    const ArrangedFacet& own = facet(f);
-    int points[4], count = 0, zeros = 0;
-    bool is_on_edge = false;
-    for (int k = 0; k < own.count; ++k) {
-      const int next = (k + 1) % own.count;
-      if (sides[k] == 0) {
-        points[count++] = own.corners[k];
-        ++zeros;
-        is_on_edge |= sides[next] == 0;
-      } else if (sides[k] * sides[next] < 0) {
-        points[count++] = geometry_.AddOnEdge(own.corners[k], own.corners[next], plane);
-      }
-    }
-    if (count < 2) return std::nullopt;
-    return Trace{points[0], points[1], is_on_edge};
-  }
-
-  void AddCrossing(const CrossingPair& pair) {
-    const int plane_f = geometry_.Root(facet(pair.f).plane);
-    const int plane_g = geometry_.Root(facet(pair.g).plane);
-    std::optional<Trace> of_f = TraceOf(pair.f, pair.of_f, plane_g);
-    if (!of_f) return;
-    std::optional<Trace> of_g = TraceOf(pair.g, pair.of_g, plane_f);
-    if (!of_g) return;
-    const int axis = geometry_.LineAxis(plane_f, plane_g);
-    for (Trace* trace : {&*of_f, &*of_g}) {
-      if (geometry_.Compare(trace->from, trace->to, axis) > 0) std::swap(trace->from, trace->to);
-    }
-    const int from = geometry_.Compare(of_f->from, of_g->from, axis) >= 0 ? of_f->from : of_g->from;
-    const int to = geometry_.Compare(of_f->to, of_g->to, axis) <= 0 ? of_f->to : of_g->to;
-    if (geometry_.Compare(from, to, axis) >= 0) return;
+  void AddCrossing(const FacetPair& pair) {
+    const int f = pair.f, g = pair.g;
+    const std::optional<FacetCrossing> crossing = CrossingOf(&geometry_, result_.facets, pair);
+    if (!crossing) return;
     ++result_.crossings;
     const int number = static_cast<int>(result_.segments.size());
     result_.segments.push_back(
-        {pair.f, pair.g, !of_f->is_on_edge, !of_g->is_on_edge, axis, {from, to}, {}});
-    const int group_f = group_of_facet_[pair.f], group_g = group_of_facet_[pair.g];
-    if (GroupIsActive(group_f)) {
-      walls_.push_back({group_f, {number, plane_g, pair.f, pair.g, false}});
-    }
-    if (GroupIsActive(group_g)) {
-      walls_.push_back({group_g, {number, plane_f, pair.g, pair.f, false}});
-    }
+        {f, g, crossing->is_inside_f, crossing->is_inside_g, crossing->axis, crossing->ends, {}});
+    const auto add = [&](int own, int other) {
+      const int group = group_of_facet_[own], plane = geometry_.Root(facet(other).plane);
+      if (GroupIsActive(group)) walls_.push_back({group, {number, plane, own, other, false}});
+    };
+    add(f, g);
+    add(g, f);
   }
 
   // Adds to each wall's segment the points in which the group's other walls meet it.
@@ -569,7 +297,6 @@ class Arranger {
   SumGeometry& geometry_;
   const std::span<const char> is_active_;
   Arrangement result_;
-  std::vector<CrossingPair> crossing_;
   std::vector<int> group_of_facet_;
   std::vector<char> group_is_active_;
   std::vector<GroupWall> walls_;

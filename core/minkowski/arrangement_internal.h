@@ -10,16 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "touchstone/core/minkowski/facet_triage_internal.h"
 #include "touchstone/core/minkowski/sum_geometry_internal.h"
 
 namespace touchstone::internal {
-
-struct ArrangedFacet {
-  SumFacet name;
-  std::array<int, 4> corners;  // points, counterclockwise from outside; the last again if three
-  int count;
-  int plane;
-};
 
 // A piece of a line: an edge of facets, or where two facets of different planes cross.
 struct Segment {

@@ -6,110 +6,13 @@
 #include <numeric>
 #include <utility>
 
-#include "touchstone/core/minkowski/flat_table_internal.h"
+#include "touchstone/core/minkowski/cell_lists_internal.h"
+#include "touchstone/core/minkowski/wall_graph_internal.h"
 
 namespace touchstone::internal {
 namespace {
 
-// All pieces of all segments, numbered by their ends.
-class PieceTable {
- public:
-  PieceTable(const Arrangement& arrangement, int point_count) {
-    PairTable by_ends(point_count);
-    first_.reserve(arrangement.segments.size());
-    numbers_.reserve(arrangement.points_of_segments.size());
-    for (const Segment& segment : arrangement.segments) {
-      first_.push_back(static_cast<int>(numbers_.size()));
-      for (std::size_t k = 0; k + 1 < segment.points.size(); ++k) {
-        const auto [small, large] = std::minmax(segment.points[k], segment.points[k + 1]);
-        const auto [number, added] = by_ends.Insert(small, large);
-        if (added) pieces_.push_back({small, large});
-        numbers_.push_back(number);
-      }
-    }
-  }
-
-  // The piece between points k and k + 1 of a segment.
-  int PieceOf(int segment, int k) const { return numbers_[first_[segment] + k]; }
-  std::size_t piece_count() const { return pieces_.size(); }
-  std::vector<Piece> Take() { return std::move(pieces_); }
-
- private:
-  std::vector<int> first_, numbers_;
-  std::vector<Piece> pieces_;
-};
-
-// Cells as they come, their lists one after the other.
-class CellLists {
- public:
-  void BeginCell(int group) {
-    drafts_.push_back({group, false, End(loop_ends_), End(pieces_), End(facets_), End(facets_)});
-  }
-  void AddFacet(int facet) { facets_.push_back(facet); }
-  void BeginAgainst() { drafts_.back().first_against = End(facets_); }
-  void AddToLoop(int point, int piece) {
-    points_.push_back(point);
-    pieces_.push_back(piece);
-  }
-  void EndLoop(bool is_buried) {
-    loop_ends_.push_back(End(points_));
-    drafts_.back().is_buried |= is_buried;
-  }
-  // Of the last cell, from a place on: sorts.
-  void SortFacets() {
-    const Draft& own = drafts_.back();
-    std::sort(facets_.begin() + own.first_facet, facets_.begin() + own.first_against);
-    std::sort(facets_.begin() + own.first_against, facets_.end());
-  }
-
-  void MoveTo(CellComplex* complex) {
-    complex->points_of_loops = std::move(points_);
-    complex->pieces_of_cells = std::move(pieces_);
-    complex->facets_of_cells = std::move(facets_);
-    const std::span<const int> points(complex->points_of_loops);
-    complex->loops_of_cells.reserve(loop_ends_.size());
-    int begin = 0;
-    for (const int end : loop_ends_) {
-      complex->loops_of_cells.push_back(Part(points, begin, end));
-      begin = end;
-    }
-    const std::span<const std::span<const int>> loops(complex->loops_of_cells);
-    const std::span<const int> pieces(complex->pieces_of_cells), facets(complex->facets_of_cells);
-    const Draft last{-1,
-                     false,
-                     End(loop_ends_),
-                     static_cast<int>(pieces.size()),
-                     static_cast<int>(facets.size()),
-                     static_cast<int>(facets.size())};
-    complex->cells.reserve(drafts_.size());
-    for (std::size_t c = 0; c < drafts_.size(); ++c) {
-      const Draft &own = drafts_[c], &next = c + 1 < drafts_.size() ? drafts_[c + 1] : last;
-      complex->cells.push_back({own.group, Part(loops, own.first_loop, next.first_loop),
-                                Part(facets, own.first_facet, own.first_against),
-                                Part(facets, own.first_against, next.first_facet), own.is_buried,
-                                Part(pieces, own.first_piece, next.first_piece)});
-    }
-  }
-
- private:
-  struct Draft {
-    int group;
-    bool is_buried;
-    int first_loop, first_piece, first_facet, first_against;
-  };
-
-  static int End(const std::vector<int>& list) { return static_cast<int>(list.size()); }
-  template <class Item>
-  static std::span<const Item> Part(std::span<const Item> list, int begin, int end) {
-    return list.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
-  }
-
-  std::vector<Draft> drafts_;
-  std::vector<int> loop_ends_, points_, pieces_, facets_;
-};
-
-// One group's graph at a time. Half-edge 2 e + 0 runs along edge e from its first point to its
-// second, 2 e + 1 back.
+// One group at a time.
 class GroupCells {
  public:
   GroupCells(SumGeometry* geometry, const Arrangement& arrangement, const PieceTable& table,
@@ -118,8 +21,7 @@ class GroupCells {
         arrangement_(arrangement),
         table_(table),
         cells_(*cells),
-        place_of_point_(static_cast<std::size_t>(geometry->point_count()), -1),
-        edge_of_piece_(table.piece_count(), -1) {}
+        graph_(geometry, arrangement, table) {}
 
   void Run(int group) {
     number_ = group;
@@ -128,8 +30,7 @@ class GroupCells {
       EmitUncut();
       return;
     }
-    GatherEdges();
-    SortRounds();
+    graph_.Build(*group_);
     TraceLoops();
     FindOuterLoops();
     PlaceParts();
@@ -138,19 +39,6 @@ class GroupCells {
   }
 
  private:
-  // A wall as it runs along an edge.
-  struct WallRun {
-    int wall;
-    bool is_forward;  // from the edge's first point to its second, along the wall's segment
-    int next;         // of the same edge; -1: none
-  };
-  struct Edge {
-    int piece;
-    int tail, head;  // places in points_
-    int line_plane;
-    int sense;  // 1: tail to head is along (group normal) x (line plane's normal)
-    int first_run = -1;
-  };
   struct Loop {
     int first;              // a half-edge
     bool is_outer = false;  // bounds its part of the graph from outside
@@ -176,127 +64,17 @@ class GroupCells {
     cells_.EndLoop(false);
   }
 
-  int Tail(int h) const { return h % 2 == 0 ? edges_[h / 2].tail : edges_[h / 2].head; }
-  int Head(int h) const { return Tail(h ^ 1); }
-  int Sense(int h) const { return h % 2 == 0 ? edges_[h / 2].sense : -edges_[h / 2].sense; }
   const ArrangedFacet& facet(int f) const { return arrangement_.facets[f]; }
-  std::span<const int> Round(int place) const {
-    return {rounds_.data() + first_of_round_[place], rounds_.data() + first_of_round_[place + 1]};
-  }
-
-  int PlaceOf(int point) {
-    int& place = place_of_point_[point];
-    if (place < 0) {
-      place = static_cast<int>(points_.size());
-      points_.push_back(point);
-    }
-    return place;
-  }
-
-  void GatherEdges() {
-    edges_.clear();
-    runs_.clear();
-    points_.clear();
-    for (std::size_t w = 0; w < group_->walls.size(); ++w) {
-      const Wall& wall = group_->walls[w];
-      const Segment& segment = arrangement_.segments[wall.segment];
-      // Which way the segment runs along the line of the two planes.
-      const int along = geometry_.LineAlong(group_->plane, wall.line_plane, segment.axis);
-      const int rises =
-          geometry_.Compare(segment.points.back(), segment.points.front(), segment.axis);
-      for (std::size_t k = 0; k + 1 < segment.points.size(); ++k) {
-        const int piece = table_.PieceOf(wall.segment, static_cast<int>(k));
-        int& number = edge_of_piece_[piece];
-        if (number < 0) {
-          number = static_cast<int>(edges_.size());
-          const int tail = PlaceOf(segment.points[k]), head = PlaceOf(segment.points[k + 1]);
-          edges_.push_back({piece, tail, head, wall.line_plane, along * rises});
-        }
-        Edge& edge = edges_[number];
-        const bool is_forward = points_[edge.tail] == segment.points[k];
-        runs_.push_back({static_cast<int>(w), is_forward, edge.first_run});
-        edge.first_run = static_cast<int>(runs_.size()) - 1;
-      }
-    }
-    for (const int point : points_) place_of_point_[point] = -1;
-    for (const Edge& edge : edges_) edge_of_piece_[edge.piece] = -1;
-  }
-
-  // The sign of the turn from half-edge h to k, both from one point: directions are s (n x n_h),
-  // and n . ((n x n_h) x (n x n_k)) = |n|² det(n, n_h, n_k).
-  int Turn(int h, int k) {
-    const int p = edges_[h / 2].line_plane, q = edges_[k / 2].line_plane;
-    return Sense(h) * Sense(k) * geometry_.NormalsDeterminant(group_->plane, p, q);
-  }
-
-  // For half-edges on one line: whether they run the same way.
-  bool RunTheSameWay(int h, int k) {
-    const int p = edges_[h / 2].line_plane, q = edges_[k / 2].line_plane;
-    const int axis = geometry_.LineAxis(group_->plane, p);
-    return Sense(h) * geometry_.LineAlong(group_->plane, p, axis) ==
-           Sense(k) * geometry_.LineAlong(group_->plane, q, axis);
-  }
-
-  // Counterclockwise order of the half-edges that leave each point, seen against the normal.
-  void SortRounds() {
-    const int count = 2 * static_cast<int>(edges_.size());
-    const int point_count = static_cast<int>(points_.size());
-    first_of_round_.assign(points_.size() + 1, 0);
-    for (int h = 0; h < count; ++h) ++first_of_round_[Tail(h)];
-    int sum = 0;
-    for (int& first : first_of_round_) first = std::exchange(sum, sum + first);
-    rounds_.resize(static_cast<std::size_t>(count));
-    for (int h = 0; h < count; ++h) rounds_[first_of_round_[Tail(h)]++] = h;
-    for (int p = point_count; p > 0; --p) first_of_round_[p] = first_of_round_[p - 1];
-    first_of_round_[0] = 0;
-    for (int p = 0; p < point_count; ++p) SortRound(p);
-    place_in_round_.resize(static_cast<std::size_t>(count));
-    for (int p = 0; p < point_count; ++p) {
-      const std::span<const int> round = Round(p);
-      for (std::size_t k = 0; k < round.size(); ++k)
-        place_in_round_[round[k]] = static_cast<int>(k);
-    }
-  }
-
-  void SortRound(int place) {
-    const std::span<int> round(rounds_.data() + first_of_round_[place],
-                               rounds_.data() + first_of_round_[place + 1]);
-    if (round.size() <= 2) return;
-    const int first = round[0];
-    // Half a turn from the first: 0 ahead of it or equal, 1 from the opposite on.
-    const auto half = [&](int h) {
-      if (h == first) return 0;
-      const int turn = Turn(first, h);
-      return turn > 0 || (turn == 0 && RunTheSameWay(first, h)) ? 0 : 1;
-    };
-    keyed_.clear();
-    for (const int h : round) keyed_.emplace_back(half(h), h);
-    std::sort(keyed_.begin(), keyed_.end(), [&](const auto& x, const auto& y) {
-      if (x.first != y.first) return x.first < y.first;
-      if (x.second == y.second) return false;
-      if (x.second == first || y.second == first) return x.second == first;
-      return Turn(x.second, y.second) > 0;
-    });
-    for (std::size_t k = 0; k < keyed_.size(); ++k) round[k] = keyed_[k].second;
-  }
-
-  // The next half-edge with the same face on its left: at the head, the first one clockwise from
-  // the way back.
-  int Next(int h) const {
-    const std::span<const int> round = Round(Head(h));
-    const int place = place_in_round_[h ^ 1];
-    return place > 0 ? round[place - 1] : round.back();
-  }
 
   void TraceLoops() {
-    const int count = 2 * static_cast<int>(edges_.size());
+    const int count = graph_.half_edge_count();
     loops_.clear();
     loop_of_.assign(static_cast<std::size_t>(count), -1);
     for (int first = 0; first < count; ++first) {
       if (loop_of_[first] >= 0) continue;
       const int number = static_cast<int>(loops_.size());
       loops_.push_back({first, false, -1});
-      for (int h = first; loop_of_[h] < 0; h = Next(h)) loop_of_[h] = number;
+      for (int h = first; loop_of_[h] < 0; h = graph_.Next(h)) loop_of_[h] = number;
     }
     for (int h = 0; h < count; ++h) {
       Loop& loop = loops_[loop_of_[h]];
@@ -308,8 +86,8 @@ class GroupCells {
   // its inner side. Along d = n x m the left of the plane with normal n lies below the plane with
   // normal m: d's left is n x d, and m . (n x (n x m)) = (n . m)² - |n|² |m|² < 0.
   bool IsBuriedBeside(int h) {
-    for (int r = edges_[h / 2].first_run; r >= 0; r = runs_[r].next) {
-      const Wall& wall = group_->walls[runs_[r].wall];
+    for (int r = graph_.edge_of(h).first_run; r >= 0; r = graph_.run(r).next) {
+      const Wall& wall = group_->walls[graph_.run(r).wall];
       if (wall.other < 0) continue;
       const Segment& segment = arrangement_.segments[wall.segment];
       const bool is_inside =
@@ -317,7 +95,8 @@ class GroupCells {
       if (!is_inside) continue;
       // Sense is along the edge's own line plane; the crossing facet's normal may be another.
       const int plane = facet(wall.other).plane;
-      const int sense = plane == edges_[h / 2].line_plane ? Sense(h) : SenseAlong(h, plane);
+      const int sense =
+          plane == graph_.edge_of(h).line_plane ? graph_.Sense(h) : SenseAlong(h, plane);
       if (sense > 0) return true;
     }
     return false;
@@ -325,9 +104,9 @@ class GroupCells {
 
   // 1 if the half-edge runs along (group normal) x (the plane's normal).
   int SenseAlong(int h, int plane) {
-    const int line_plane = edges_[h / 2].line_plane;
+    const int line_plane = graph_.edge_of(h).line_plane;
     const int axis = geometry_.LineAxis(group_->plane, plane);
-    return Sense(h) * geometry_.LineAlong(group_->plane, line_plane, axis) *
+    return graph_.Sense(h) * geometry_.LineAlong(group_->plane, line_plane, axis) *
            geometry_.LineAlong(group_->plane, plane, axis);
   }
 
@@ -335,17 +114,17 @@ class GroupCells {
   // the sector that opens backwards at the part's first point in the order of coordinates.
   void FindOuterLoops() {
     std::vector<int>& part = part_of_point_;
-    part.resize(points_.size());
+    part.resize(static_cast<std::size_t>(graph_.point_count()));
     std::iota(part.begin(), part.end(), 0);
     const auto find = [&](int p) {
       while (part[p] != p) p = part[p] = part[part[p]];
       return p;
     };
-    for (const Edge& edge : edges_) part[find(edge.tail)] = find(edge.head);
+    for (const WallEdge& edge : graph_.edges()) part[find(edge.tail)] = find(edge.head);
     normal_axis_ = geometry_.NormalAxis(group_->plane);
     parts_.clear();
-    part_of_root_.assign(points_.size(), -1);
-    for (int p = 0; p < static_cast<int>(points_.size()); ++p) {
+    part_of_root_.assign(part.size(), -1);
+    for (int p = 0; p < graph_.point_count(); ++p) {
       int& number = part_of_root_[find(p)];
       if (number < 0) {
         number = static_cast<int>(parts_.size());
@@ -354,13 +133,13 @@ class GroupCells {
         parts_[number].first_point = p;
       }
     }
-    for (Loop& loop : loops_) loop.part = part_of_root_[find(Tail(loop.first))];
+    for (Loop& loop : loops_) loop.part = part_of_root_[find(graph_.Tail(loop.first))];
     for (Part& each : parts_) {
-      const std::span<const int> round = Round(each.first_point);
+      const std::span<const int> round = graph_.Round(each.first_point);
       // All half-edges lie within less than half a turn: the gap after the last one is wider.
       int last = round[0];
       for (std::size_t k = 0; k < round.size() && round.size() > 1; ++k) {
-        if (Turn(round[k], round[(k + 1) % round.size()]) < 0) last = round[k];
+        if (graph_.Turn(round[k], round[(k + 1) % round.size()]) < 0) last = round[k];
       }
       each.outer_loop = loop_of_[last];
       loops_[each.outer_loop].is_outer = true;
@@ -369,24 +148,27 @@ class GroupCells {
 
   bool IsBefore(int p, int q) {
     const int i = (normal_axis_ + 1) % 3, j = (normal_axis_ + 2) % 3;
-    const int sign = geometry_.Compare(points_[p], points_[q], i);
-    return sign != 0 ? sign < 0 : geometry_.Compare(points_[p], points_[q], j) < 0;
+    const int sign = geometry_.Compare(graph_.point(p), graph_.point(q), i);
+    return sign != 0 ? sign < 0 : geometry_.Compare(graph_.point(p), graph_.point(q), j) < 0;
   }
 
   // Whether a point off the loop's part lies inside the loop.
   bool IsInside(int p, const Loop& loop) {
     const int i = (normal_axis_ + 1) % 3;
-    const auto is_beyond = [&](int q) { return geometry_.Compare(points_[q], points_[p], i) > 0; };
+    const auto is_beyond = [&](int q) {
+      return geometry_.Compare(graph_.point(q), graph_.point(p), i) > 0;
+    };
     bool inside = false;
     int h = loop.first;
     do {
-      int tail = Tail(h), head = Head(h);
+      int tail = graph_.Tail(h), head = graph_.Head(h);
       const bool tail_beyond = is_beyond(tail), head_beyond = is_beyond(head);
       if (tail_beyond != head_beyond) {
         if (tail_beyond) std::swap(tail, head);
-        inside ^= geometry_.Turn(points_[tail], points_[head], points_[p], normal_axis_) > 0;
+        inside ^= geometry_.Turn(graph_.point(tail), graph_.point(head), graph_.point(p),
+                                 normal_axis_) > 0;
       }
-      h = Next(h);
+      h = graph_.Next(h);
     } while (h != loop.first);
     return inside;
   }
@@ -451,7 +233,7 @@ class GroupCells {
             CoverAcross(h, loops_[l], &loops_[other]);
             stack.push_back(other);
           }
-          h = Next(h);
+          h = graph_.Next(h);
         } while (h != loops_[l].first);
       }
     }
@@ -461,11 +243,11 @@ class GroupCells {
   void CoverAcross(int h, const Loop& left, Loop* right) {
     const auto begin = static_cast<std::ptrdiff_t>(covers_.size());
     for (int k = 0; k < left.cover_count; ++k) covers_.push_back(covers_[left.first_cover + k]);
-    for (int r = edges_[h / 2].first_run; r >= 0; r = runs_[r].next) {
-      const Wall& wall = group_->walls[runs_[r].wall];
+    for (int r = graph_.edge_of(h).first_run; r >= 0; r = graph_.run(r).next) {
+      const Wall& wall = group_->walls[graph_.run(r).wall];
       if (wall.other >= 0) continue;
       // Whether the facet lies on the half-edge's left.
-      const bool runs_along = runs_[r].is_forward == (h % 2 == 0);
+      const bool runs_along = graph_.run(r).is_forward == (h % 2 == 0);
       if (wall.facet_is_left == runs_along) {
         covers_.erase(std::remove(covers_.begin() + begin, covers_.end(), wall.facet),
                       covers_.end());
@@ -509,8 +291,8 @@ class GroupCells {
   void AddLoop(const Loop& loop) {
     int h = loop.first;
     do {
-      cells_.AddToLoop(points_[Tail(h)], edges_[h / 2].piece);
-      h = Next(h);
+      cells_.AddToLoop(graph_.point(graph_.Tail(h)), graph_.edge_of(h).piece);
+      h = graph_.Next(h);
     } while (h != loop.first);
     cells_.EndLoop(loop.is_buried);
   }
@@ -524,21 +306,16 @@ class GroupCells {
   const Arrangement& arrangement_;
   const PieceTable& table_;
   CellLists& cells_;
-  std::vector<int> place_of_point_, edge_of_piece_;  // -1 between groups
+  WallGraph graph_;
 
   int number_ = 0;
   const Group* group_ = nullptr;
   int normal_axis_ = 0;
-  std::vector<Edge> edges_;
-  std::vector<WallRun> runs_;
-  std::vector<int> points_;
-  std::vector<int> first_of_round_, rounds_;  // half-edges by the place of their tails
-  std::vector<int> place_in_round_, loop_of_;
+  std::vector<int> loop_of_;  // by half-edge
   std::vector<Loop> loops_;
   std::vector<Part> parts_;
   std::vector<int> part_of_point_, part_of_root_;
   std::vector<int> covers_;
-  std::vector<std::pair<int, int>> keyed_;
 };
 
 }  // namespace

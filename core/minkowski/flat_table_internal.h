@@ -3,6 +3,7 @@
 #define TOUCHSTONE_CORE_MINKOWSKI_FLAT_TABLE_INTERNAL_H_
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -42,14 +43,22 @@ class NumberTable {
     return number;
   }
 
+  // Makes room for so many things.
+  void Reserve(std::size_t count) {
+    if (entries_.size() < 2 * count) GrowTo(std::bit_ceil(2 * count));
+  }
+
  private:
   struct Entry {
     std::uint32_t hash = 0;
     int number = -1;
   };
 
-  void Grow() {
-    std::vector<Entry> before(entries_.empty() ? 32 : 2 * entries_.size());
+  void Grow() { GrowTo(entries_.empty() ? 32 : 2 * entries_.size()); }
+
+  // To a power of two.
+  void GrowTo(std::size_t size) {
+    std::vector<Entry> before(size);
     std::swap(before, entries_);
     for (const Entry& entry : before) {
       if (entry.number < 0) continue;

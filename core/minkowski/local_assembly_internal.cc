@@ -135,18 +135,20 @@ class Assembler {
 
   const std::vector<std::array<int, 3>>& TrianglesOf(int c) {
     if (triangles_[c].empty()) {
-      const std::vector<std::vector<int>> loops = InOrder(cell(c).loops);
-      const std::vector<std::span<const int>> views(loops.begin(), loops.end());
-      triangles_[c] = TriangulateCell(&geometry_, arrangement_.groups[cell(c).group].plane, views);
+      PutInOrder(cell(c).loops);
+      triangles_[c] = TriangulateCell(&geometry_, arrangement_.groups[cell(c).group].plane, loops_);
     }
     return triangles_[c];
   }
 
-  // The same loops, each begun at its first point in the order of coordinates, holes by that point:
-  // so that a cell is cut into the same triangles whatever else was there to be numbered.
-  std::vector<std::vector<int>> InOrder(std::span<const std::span<const int>> unordered) {
-    std::vector<std::vector<int>> loops;
-    for (const std::span<const int> loop : unordered) loops.emplace_back(loop.begin(), loop.end());
+  // Sets `loops_` to the same loops, each begun at its first point in the order of coordinates,
+  // holes by that point: so that a cell is cut into the same triangles whatever else was there to
+  // be numbered.
+  void PutInOrder(std::span<const std::span<const int>> unordered) {
+    points_of_loops_.clear();
+    for (const std::span<const int> loop : unordered) {
+      points_of_loops_.insert(points_of_loops_.end(), loop.begin(), loop.end());
+    }
     const auto is_before = [&](int x, int y) {
       for (int axis = 0; axis < 3; ++axis) {
         const int sign = geometry_.Compare(x, y, axis);
@@ -154,14 +156,17 @@ class Assembler {
       }
       return false;
     };
-    for (std::vector<int>& loop : loops) {
-      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), is_before), loop.end());
+    loops_.clear();
+    auto begin = points_of_loops_.begin();
+    for (const std::span<const int> loop : unordered) {
+      const auto end = begin + std::ssize(loop);
+      std::rotate(begin, std::min_element(begin, end, is_before), end);
+      loops_.emplace_back(begin, end);
+      begin = end;
     }
-    std::sort(loops.begin() + 1, loops.end(),
-              [&](const std::vector<int>& x, const std::vector<int>& y) {
-                return is_before(x[0], y[0]);
-              });
-    return loops;
+    std::sort(
+        loops_.begin() + 1, loops_.end(),
+        [&](std::span<const int> x, std::span<const int> y) { return is_before(x[0], y[0]); });
   }
 
   // By a sample point in the largest triangle of the cell.
@@ -233,6 +238,7 @@ class Assembler {
       if (!is_near_[i] || (is_near_kept[piece.from] && is_near_kept[piece.to])) continue;
       const std::vector<FacingPlane>& planes = PlanesOf(i);
       for (const int point : {piece.from, piece.to}) {
+        if (is_near_kept[point] || !IsInBall(point)) continue;
         for (const auto& [plane, side] : planes) planes_of_points.push_back({point, plane, side});
       }
       if (IsNearKept(i) || planes.size() < 3) continue;
@@ -280,7 +286,7 @@ class Assembler {
       for (; first != last && (*first)[0] == point; ++first) {
         planes_.push_back({(*first)[1], (*first)[2]});
       }
-      if (planes_.size() >= 4 && !is_near_kept[point] && IsInBall(point) &&
+      if (planes_.size() >= 4 && !is_near_kept[point] &&
           (!FaceOneSide(geometry_, planes_) || MayBeWithinFacet(point)) &&
           !IsMiddleInM(point, point)) {
         sum_.points.push_back(AddPoint(point));
@@ -361,6 +367,8 @@ class Assembler {
   Patches patches_;
   std::vector<char> is_kept_;                               // by patch
   std::vector<std::vector<std::array<int, 3>>> triangles_;  // by cell
+  std::vector<int> points_of_loops_;                        // scratch
+  std::vector<std::span<const int>> loops_;                 // scratch
   std::vector<FacingPlane> planes_;                         // scratch
   std::vector<Piece> segments_;
   BoxLanes facet_boxes_;  // of the arrangement's facets, once they are asked for

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "touchstone/core/minkowski/flat_table_internal.h"
+
 namespace touchstone::internal {
 namespace {
 
@@ -20,19 +22,24 @@ struct TriangleSide {
 }  // namespace
 
 void FindNeighbors(LocalSum* sum) {
-  std::vector<TriangleSide> sides;
-  sides.reserve(3 * sum->triangles.size());
-  for (int t = 0; t < static_cast<int>(sum->triangles.size()); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int u = sum->triangles[t][k], v = sum->triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(u, v), std::max(u, v), t, k, u < v});
-    }
+  // By the lower end, and then by the other: few share one end.
+  auto lists =
+      ListByOwner<TriangleSide>(static_cast<int>(sum->vertices.size()), [&](const auto& visit) {
+        for (int t = 0; t < static_cast<int>(sum->triangles.size()); ++t) {
+          for (int k = 0; k < 3; ++k) {
+            const int u = sum->triangles[t][k], v = sum->triangles[t][(k + 1) % 3];
+            visit(std::min(u, v), {std::min(u, v), std::max(u, v), t, k, u < v});
+          }
+        }
+      });
+  std::vector<TriangleSide>& sides = lists.items;
+  for (std::size_t v = 0; v + 1 < lists.first.size(); ++v) {
+    std::sort(sides.begin() + lists.first[v], sides.begin() + lists.first[v + 1],
+              [](const TriangleSide& x, const TriangleSide& y) {
+                if (x.high != y.high) return x.high < y.high;
+                return 3 * x.triangle + x.side < 3 * y.triangle + y.side;
+              });
   }
-  std::sort(sides.begin(), sides.end(), [](const TriangleSide& x, const TriangleSide& y) {
-    if (x.low != y.low) return x.low < y.low;
-    if (x.high != y.high) return x.high < y.high;
-    return 3 * x.triangle + x.side < 3 * y.triangle + y.side;
-  });
   sum->neighbors.assign(sum->triangles.size(), {-1, -1, -1});
   sum->is_border_vertex.assign(sum->vertices.size(), 0);
   for (std::size_t i = 0; i < sides.size();) {

@@ -230,6 +230,12 @@ PlacedSphereConeTree::PlacedSphereConeTree(SphereConeTree tree)
 
 void PlacedSphereConeTree::Place(const Eigen::Matrix3d& linear, const Vector3d& shift, double scale,
                                  double sense, double widening) {
+  // A stays where it is while the scale does.
+  if (stamp_ != 0 && linear_ == sense * linear && shift_ == sense * shift && scale_ == scale &&
+      widening_ == widening) {
+    return;
+  }
+  widening_ = widening;
   widening_cosine_ = std::cos(widening);
   widening_sine_ = std::sin(widening);
   linear_ = sense * linear;

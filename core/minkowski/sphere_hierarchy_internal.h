@@ -85,7 +85,7 @@ class PlacedSphereConeTree {
   Eigen::Matrix3d linear_, turn_;
   Eigen::Vector3d shift_;
   double scale_ = 1.0;
-  double widening_cosine_ = 1.0, widening_sine_ = 0.0;
+  double widening_ = 0.0, widening_cosine_ = 1.0, widening_sine_ = 0.0;
 };
 
 // Both bodies' trees over faces, vertices that can support, and convex edges.

@@ -15,10 +15,22 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+// Two corners and two points on crossings a facet, or so.
+void SumGeometry::Reserve(std::size_t facets) {
+  points_.reserve(4 * facets);
+  planes_.reserve(2 * facets);
+  roots_.reserve(2 * facets);
+  point_numbers_.Reserve(4 * facets);
+}
+
 int SumGeometry::Add(SumPointForm form, const std::array<int, 3>& parts) {
   const int number = point_numbers_.Insert(
       NumberTable::Hash({static_cast<int>(form), parts[0], parts[1], parts[2]}), point_count(),
-      [&](int i) { return points_[i].form == form && points_[i].parts == parts; });
+      [&](int i) {
+        const SumPoint& x = points_[i];
+        return x.form == form && x.parts[0] == parts[0] && x.parts[1] == parts[1] &&
+               x.parts[2] == parts[2];
+      });
   if (number == point_count()) points_.push_back({form, parts, Vector3d::Zero(), kInfinity});
   return number;
 }

@@ -78,6 +78,9 @@ class SumGeometry {
 
   const MeshPair& pair() const { return pair_; }
 
+  // Makes room for so many facets.
+  void Reserve(std::size_t facets);
+
   // Each returns the number of a new or known point.
   int AddVertex(SumVertex vertex);
   int AddOnEdge(int vertex, int other_vertex, int plane);
@@ -134,6 +137,11 @@ class SumGeometry {
     DyadicVector normal;
     Dyadic offset;  // normal . x for the plane's points
   };
+  // A turn that needed big numbers.
+  struct KnownTurn {
+    std::array<int, 3> points;  // in rising order
+    int axis, sign;
+  };
   SumVertex VertexOf(int point) const;
   int Add(SumPointForm form, const std::array<int, 3>& parts);
   void RoundOnEdge(SumPoint* point) const;
@@ -141,7 +149,9 @@ class SumGeometry {
   static Estimate Height(const SumPoint& x, const SumPlane& plane);
   bool LiesOnByName(const SumPoint& x, int plane) const;
   bool LieOnOneEdge(const std::array<int, 3>& points) const;
-  std::optional<int> SideOfNeighbor(const SumPoint& x, int plane) const;
+  std::optional<int> SideOfFace(const SumPoint& x, int plane);
+  std::optional<SumVertex> VertexAbreast(const SumPoint& x, int axis) const;
+  int ExactTurn(std::array<int, 3> points, int axis);
   bool IsVertexOfFlatFacet(const SumPoint& x, const SumFacet& facet) const;
   const ExactPlane& ExactPlaneOf(int plane);
   ExactPoint MakeExact(const SumPoint& point);
@@ -151,7 +161,8 @@ class SumGeometry {
   std::vector<SumPoint> points_;
   std::vector<SumPlane> planes_;
   mutable std::vector<int> roots_;
-  NumberTable point_numbers_, edge_planes_;
+  NumberTable point_numbers_, edge_planes_, turn_numbers_;
+  std::vector<KnownTurn> turns_;
   KeptItems<ExactPoint> exact_points_;
   KeptItems<ExactPlane> exact_planes_;
   long exact_count_ = 0;

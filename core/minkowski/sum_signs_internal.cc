@@ -3,6 +3,7 @@
 // Signs of the points and planes of M: by roundings, by names, by big numbers, in that order.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "touchstone/core/minkowski/bounded_vector_internal.h"
 #include "touchstone/core/minkowski/sum_geometry_internal.h"
@@ -44,10 +45,11 @@ bool SumGeometry::IsVertexOfFlatFacet(const SumPoint& x, const SumFacet& facet) 
          is_on(pair_.b().mesh, x.parts[1], facet.b);
 }
 
-// The apex of a face beside the one that names the facet, against the same other vertex: the edge's
-// kind says on which side it lies, whatever the pose. Where flat polygons were cut and rounded,
-// that is what doubles cannot tell.
-std::optional<int> SumGeometry::SideOfNeighbor(const SumPoint& x, int plane) const {
+// A vertex of the body whose face names the facet, against the same other vertex: the body's own
+// vertices say on which side it lies, whatever the pose, which keeps orientations; of the apex of a
+// face beside it, its edge's kind. Where flat polygons were cut and rounded, that is what doubles
+// cannot tell.
+std::optional<int> SumGeometry::SideOfFace(const SumPoint& x, int plane) {
   const SumPlane& own = planes_[plane];
   if (x.form != SumPointForm::kVertex || own.axis >= 0 ||
       own.facet.kind == SumFacetKind::kEdgeEdge) {
@@ -69,18 +71,34 @@ std::optional<int> SumGeometry::SideOfNeighbor(const SumPoint& x, int plane) con
         return 1;
     }
   }
-  return std::nullopt;
+  ++exact_count_;
+  const DyadicVector at = ToDyadic(mesh.vertex(vertex));
+  const auto way_to = [&](int corner) { return ToDyadic(mesh.vertex(corner)) - at; };
+  // From the vertex the corners turn clockwise where it lies beyond.
+  const auto& [u, v, w] = mesh.face(face);
+  return -Determinant(way_to(u), way_to(v), way_to(w)).sign();
 }
 
 int SumGeometry::Side(int point, int plane) {
   const SumPoint& x = points_[point];
   const int sign = TriageSign(Height(x, planes_[plane]));
   if (sign != 0 || LiesOnByName(x, plane)) return sign;
-  if (const auto side = SideOfNeighbor(x, plane)) return *side;
+  if (const auto side = SideOfFace(x, plane)) return *side;
   ++exact_count_;
   const ExactPoint& at = Exact(point);
   const ExactPlane& exact = ExactPlaneOf(plane);
   return (Dot(exact.normal, at.coordinates) - exact.offset * at.denominator).sign();
+}
+
+// A vertex of M that has the same coordinate as the point, by its name: itself, or an end of an
+// edge that runs across the axis, as edges of A do that its own coordinates place so.
+std::optional<SumVertex> SumGeometry::VertexAbreast(const SumPoint& x, int axis) const {
+  if (x.form == SumPointForm::kVertex) return SumVertex{x.parts[0], x.parts[1]};
+  if (x.form != SumPointForm::kOnEdge) return std::nullopt;
+  const SumVertex u = VertexOf(x.parts[0]), v = VertexOf(x.parts[1]);
+  const TriangleMesh& a = pair_.a().mesh;
+  if (u.b != v.b || a.vertex(u.a)[axis] != a.vertex(v.a)[axis]) return std::nullopt;
+  return u;
 }
 
 int SumGeometry::Compare(int x, int y, int axis) {
@@ -89,12 +107,12 @@ int SumGeometry::Compare(int x, int y, int axis) {
   const double difference = p.rounded[axis] - q.rounded[axis];
   const int sign = SignOf(difference, 1.01 * (p.error + q.error + kUnit * std::abs(difference)));
   if (sign != 0) return sign;
-  if (p.form == SumPointForm::kVertex && q.form == SumPointForm::kVertex &&
-      p.parts[1] == q.parts[1]) {
+  const std::optional<SumVertex> u = VertexAbreast(p, axis), v = VertexAbreast(q, axis);
+  if (u && v && u->b == v->b) {
     // A's coordinates are the doubles given.
     const TriangleMesh& a = pair_.a().mesh;
-    const double u = a.vertex(p.parts[0])[axis], v = a.vertex(q.parts[0])[axis];
-    return u > v ? 1 : u < v ? -1 : 0;
+    const double at_u = a.vertex(u->a)[axis], at_v = a.vertex(v->a)[axis];
+    return at_u > at_v ? 1 : at_u < at_v ? -1 : 0;
   }
   ++exact_count_;
   const ExactPoint &a = Exact(x), &b = Exact(y);
@@ -137,13 +155,32 @@ int SumGeometry::Turn(int x, int y, int z, int axis) {
   if (x == y || y == z || z == x) return 0;
   const int sign = TriageTurn(points_[x], points_[y], points_[z], axis);
   if (sign != 0 || LieOnOneEdge({x, y, z})) return sign;
+  return ExactTurn({x, y, z}, axis);
+}
+
+// Of the points in the order of their numbers, kept: triangulating asks for the same turn in every
+// order.
+int SumGeometry::ExactTurn(std::array<int, 3> points, int axis) {
+  int sense = 1;
+  for (const int k : {0, 1, 0}) {
+    if (points[k] < points[k + 1]) continue;
+    std::swap(points[k], points[k + 1]);
+    sense = -sense;
+  }
+  const int count = static_cast<int>(turns_.size());
+  const int number = turn_numbers_.Insert(
+      NumberTable::Hash({points[0], points[1], points[2], axis}), count,
+      [&](int i) { return turns_[i].axis == axis && turns_[i].points == points; });
+  if (number < count) return sense * turns_[number].sign;
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   ++exact_count_;
-  const ExactPoint &a = Exact(x), &b = Exact(y), &c = Exact(z);
-  const auto row = [&](const ExactPoint& at) {
+  const auto row = [&](int point) {
+    const ExactPoint& at = Exact(point);
     return DyadicVector{at.coordinates[i], at.coordinates[j], at.denominator};
   };
-  return Determinant(row(a), row(b), row(c)).sign();
+  const int sign = Determinant(row(points[0]), row(points[1]), row(points[2])).sign();
+  turns_.push_back({points, axis, sign});
+  return sense * sign;
 }
 
 int SumGeometry::NormalsDeterminant(int p, int q, int r) {

@@ -17,6 +17,10 @@ class Triangulator {
   }
 
   std::vector<std::array<int, 3>> Run(std::span<const std::span<const int>> loops) {
+    if (loops.size() == 1 && IsConvex(loops[0])) {
+      FanOut(loops[0]);
+      return std::move(triangles_);
+    }
     Loop polygon = WithoutSpikes({loops[0].begin(), loops[0].end()});
     std::vector<Loop> holes;
     for (std::size_t k = 1; k < loops.size(); ++k) {
@@ -34,6 +38,23 @@ class Triangulator {
   static int At(const Loop& loop, std::ptrdiff_t k) {
     const auto n = std::ssize(loop);
     return loop[static_cast<std::size_t>((k % n + n) % n)];
+  }
+
+  // Whether it turns left at every corner: the outer border of a cell turns round once.
+  bool IsConvex(std::span<const int> loop) {
+    const auto n = loop.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      if (Turn(loop[k], loop[k + 1 < n ? k + 1 : 0], loop[(k + 2) % n]) <= 0) return false;
+    }
+    return true;
+  }
+
+  // The triangles that clipping ears would leave.
+  void FanOut(std::span<const int> loop) {
+    triangles_.reserve(loop.size() - 2);
+    for (std::size_t k = 0; k + 2 < loop.size(); ++k) {
+      triangles_.push_back({loop.back(), loop[k], loop[k + 1]});
+    }
   }
 
   // Leaves out pieces that the loop runs along and back at once.

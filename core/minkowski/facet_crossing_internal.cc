@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "touchstone/core/minkowski/facet_crossing_internal.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "touchstone/core/mesh/box_tree.h"
+#include "touchstone/core/minkowski/box_lanes_internal.h"
+
+namespace touchstone::internal {
+namespace {
+
+using Eigen::Vector3d;
+
+// The sides that a facet's corners lie on; false if all lie strictly on one side.
+bool FindSides(SumGeometry* geometry, const ArrangedFacet& facet, int plane, CornerSides* sides) {
+  int least = 1, greatest = -1;
+  for (int k = 0; k < facet.count; ++k) {
+    const int side = geometry->Side(facet.corners[k], plane);
+    (*sides)[k] = static_cast<signed char>(side);
+    least = std::min(least, side);
+    greatest = std::max(greatest, side);
+  }
+  return least <= 0 && greatest >= 0;
+}
+
+class PairFinder {
+ public:
+  PairFinder(SumGeometry* geometry, std::span<const ArrangedFacet> facets,
+             std::span<const char> is_active)
+      : geometry_(*geometry), facets_(facets), is_active_(is_active), triage_(*geometry, facets) {}
+
+  FacetPairs Run() {
+    FacetPairs result;
+    FindNear();
+    result.box_pairs = static_cast<long>(near_.size());
+    std::erase_if(near_, [&](const auto& pair) {
+      return triage_.IsClear(pair.first, pair.second) || triage_.IsClear(pair.second, pair.first);
+    });
+    // In a fixed order, however they were found: facets come sorted.
+    std::sort(near_.begin(), near_.end());
+    for (const auto& [f, g] : near_) {
+      FacetPair pair{f, g, {}, {}};
+      if (MayCross(&pair)) result.pairs.push_back(pair);
+    }
+    return result;
+  }
+
+ private:
+  bool IsActive(int f) const { return is_active_[f] != 0; }
+
+  // Pairs whose boxes meet.
+  void FindNear() {
+    std::vector<Box3> boxes;
+    boxes.reserve(facets_.size());
+    for (const ArrangedFacet& f : facets_) {
+      Box3 box{geometry_.point(f.corners[0]).rounded, geometry_.point(f.corners[0]).rounded};
+      for (const int corner : f.corners) {
+        const SumPoint& point = geometry_.point(corner);
+        box.low = box.low.cwiseMin(point.rounded - Vector3d::Constant(point.error));
+        box.high = box.high.cwiseMax(point.rounded + Vector3d::Constant(point.error));
+      }
+      boxes.push_back(box);
+    }
+    if (is_active_.empty()) {
+      BoxTree(boxes).MeetingItems(&near_);
+    } else {
+      FindNearActive(boxes);
+    }
+  }
+
+  // Each active one against all, in lanes. Few are active; a tree would find the pairs of the
+  // others, too.
+  void FindNearActive(std::span<const Box3> boxes) {
+    const BoxLanes lanes(boxes);
+    std::vector<int> hits;
+    for (int f = 0; f < static_cast<int>(boxes.size()); ++f) {
+      if (!IsActive(f)) continue;
+      hits.clear();
+      lanes.Meeting(boxes[f], &hits);
+      for (const int g : hits) {
+        if (g != f && (!IsActive(g) || f < g)) near_.push_back(std::minmax(f, g));
+      }
+    }
+  }
+
+  bool MayCross(FacetPair* pair) {
+    const ArrangedFacet &x = facets_[pair->f], &y = facets_[pair->g];
+    const SharedCorners shared = FindSharedCorners(x, y);
+    if (shared.count == 1 && MeetInACorner(*pair, shared)) return false;
+    const bool share_an_edge = shared.count >= 2;
+    if (share_an_edge && (AreNeighbors(x, y) || LieAcrossAnEdge(geometry_, x, y))) return false;
+    if (!FindSides(&geometry_, y, x.plane, &pair->of_g)) return false;
+    if (std::all_of(pair->of_g.begin(), pair->of_g.end(), [](int side) { return side == 0; })) {
+      geometry_.Unite(x.plane, y.plane);
+      return false;
+    }
+    return !share_an_edge && FindSides(&geometry_, x, y.plane, &pair->of_f);
+  }
+
+  // Whether facets that share one corner certainly share nothing else: neither cuts the other then,
+  // and a plane may have two names. Round a vertex of M many facets do.
+  bool MeetInACorner(const FacetPair& pair, const SharedCorners& shared) const {
+    const ArrangedFacet &x = facets_[pair.f], &y = facets_[pair.g];
+    const int corner = x.corners[shared.place_x];
+    return triage_.IsClearBut(pair.f, pair.g, corner, y.corners) ||
+           triage_.IsClearBut(pair.g, pair.f, corner, x.corners) ||
+           PartAtCorner(geometry_, x, y, shared);
+  }
+
+  SumGeometry& geometry_;
+  const std::span<const ArrangedFacet> facets_;
+  const std::span<const char> is_active_;
+  const FacetTriage triage_;
+  std::vector<std::pair<int, int>> near_;
+};
+
+// What a plane cuts from a convex facet.
+struct Trace {
+  int from, to;     // points
+  bool is_on_edge;  // along an edge of the facet, rather than through its inside
+};
+
+// Nothing where the plane only touches a corner.
+std::optional<Trace> TraceOf(SumGeometry* geometry, const ArrangedFacet& facet,
+                             const CornerSides& sides, int plane) {
+  int points[4], count = 0;
+  bool is_on_edge = false;
+  for (int k = 0; k < facet.count; ++k) {
+    const int next = (k + 1) % facet.count;
+    if (sides[k] == 0) {
+      points[count++] = facet.corners[k];
+      is_on_edge |= sides[next] == 0;
+    } else if (sides[k] * sides[next] < 0) {
+      points[count++] = geometry->AddOnEdge(facet.corners[k], facet.corners[next], plane);
+    }
+  }
+  if (count < 2) return std::nullopt;
+  return Trace{points[0], points[1], is_on_edge};
+}
+
+}  // namespace
+
+FacetPairs FindCrossingFacets(SumGeometry* geometry, std::span<const ArrangedFacet> facets,
+                              std::span<const char> is_active) {
+  return PairFinder(geometry, facets, is_active).Run();
+}
+
+std::optional<FacetCrossing> CrossingOf(SumGeometry* geometry,
+                                        std::span<const ArrangedFacet> facets,
+                                        const FacetPair& pair) {
+  const ArrangedFacet &f = facets[pair.f], &g = facets[pair.g];
+  const int plane_f = geometry->Root(f.plane), plane_g = geometry->Root(g.plane);
+  std::optional<Trace> of_f = TraceOf(geometry, f, pair.of_f, plane_g);
+  if (!of_f) return std::nullopt;
+  std::optional<Trace> of_g = TraceOf(geometry, g, pair.of_g, plane_f);
+  if (!of_g) return std::nullopt;
+  const int axis = geometry->LineAxis(plane_f, plane_g);
+  for (Trace* trace : {&*of_f, &*of_g}) {
+    if (geometry->Compare(trace->from, trace->to, axis) > 0) std::swap(trace->from, trace->to);
+  }
+  const int from = geometry->Compare(of_f->from, of_g->from, axis) >= 0 ? of_f->from : of_g->from;
+  const int to = geometry->Compare(of_f->to, of_g->to, axis) <= 0 ? of_f->to : of_g->to;
+  if (geometry->Compare(from, to, axis) >= 0) return std::nullopt;
+  return FacetCrossing{axis, {from, to}, !of_f->is_on_edge, !of_g->is_on_edge};
+}
+
+}  // namespace touchstone::internal

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// Which facets cut each other, and where: exactly.
+#ifndef TOUCHSTONE_CORE_MINKOWSKI_FACET_CROSSING_INTERNAL_H_
+#define TOUCHSTONE_CORE_MINKOWSKI_FACET_CROSSING_INTERNAL_H_
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "touchstone/core/minkowski/facet_triage_internal.h"
+#include "touchstone/core/minkowski/sum_geometry_internal.h"
+
+namespace touchstone::internal {
+
+// The sides of another plane that a facet's corners lie on.
+using CornerSides = std::array<signed char, 4>;
+
+// Facets f < g that each have corners on both sides of the other's plane, or in it.
+struct FacetPair {
+  int f, g;
+  CornerSides of_f, of_g;
+};
+
+struct FacetPairs {
+  std::vector<FacetPair> pairs;  // in order
+  long box_pairs = 0;            // pairs whose boxes meet
+};
+
+// All pairs of facets that may cross, but those with no active one; an empty span: all are active.
+// Coplanar ones are united. Complexity: O(n log n + k) for k pairs of boxes that meet if all are
+// active, else O(a n / 64 + k) for a active ones.
+FacetPairs FindCrossingFacets(SumGeometry* geometry, std::span<const ArrangedFacet> facets,
+                              std::span<const char> is_active);
+
+// The segment in which two facets cross.
+struct FacetCrossing {
+  int axis;                       // a coordinate that rises along it
+  std::array<int, 2> ends;        // points
+  bool is_inside_f, is_inside_g;  // whether it passes through the inside, rather than along an edge
+};
+
+// Nothing if the facets of the pair share no segment.
+std::optional<FacetCrossing> CrossingOf(SumGeometry* geometry,
+                                        std::span<const ArrangedFacet> facets,
+                                        const FacetPair& pair);
+
+}  // namespace touchstone::internal
+
+#endif  // TOUCHSTONE_CORE_MINKOWSKI_FACET_CROSSING_INTERNAL_H_
