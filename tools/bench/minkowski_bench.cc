@@ -315,6 +315,15 @@ RandomSumsReport CompareOnRandomBalls(int balls, std::uint64_t seed) {
   return report;
 }
 
+int CountRefutedSegments(const TriangleMesh& a, const TriangleMesh& b, const RelativePose& pose,
+                         const Ball& ball, const LocalSum& sum, int segments, std::uint64_t seed) {
+  const exact::PlacedMeshPair judge(a, b, pose);
+  Random random("segments", seed, 0);
+  int refuted = 0;
+  for (int i = 0; i < segments; ++i) refuted += IsRefuted(judge, sum, ball, &random);
+  return refuted;
+}
+
 bool WriteOff(const std::string& path, const LocalSum& sum) {
   std::ofstream file(path);
   file << "OFF\n" << sum.vertices.size() << ' ' << sum.triangles.size() << " 0\n";

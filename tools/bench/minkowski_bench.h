@@ -49,6 +49,11 @@ struct RandomSumsReport {
 // samples off the surface on either side are judged by the exact half.
 RandomSumsReport CompareOnRandomBalls(int balls, std::uint64_t seed);
 
+// Of so many segments between random points of the ball, those that the exact half refutes: the
+// ends lie on the same side of ∂M iff the segment crosses the sum an even number of times.
+int CountRefutedSegments(const TriangleMesh& a, const TriangleMesh& b, const RelativePose& pose,
+                         const Ball& ball, const LocalSum& sum, int segments, std::uint64_t seed);
+
 // The surface as an OFF file. False if it cannot be written.
 bool WriteOff(const std::string& path, const LocalSum& sum);
 

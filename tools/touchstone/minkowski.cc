@@ -142,7 +142,9 @@ int RunMinkowski(const Arguments& arguments) {
   const TriangleMesh a = LoadEmbedded(arguments.a), b = LoadEmbedded(arguments.b);
   const RelativePose pose = ParsePose(arguments.pose);
   if (!arguments.local.ball.empty()) {
-    return RunLocalSum(arguments.local, a, b, pose, arguments.out, arguments.json);
+    LocalSumArguments local = arguments.local;
+    local.judge = arguments.judge;
+    return RunLocalSum(local, a, b, pose, arguments.out, arguments.json);
   }
   const auto begin = std::chrono::steady_clock::now();
   const SumBoundary boundary = BuildSumBoundary(MeshPair(a, b, pose), GaussMap(a), GaussMap(b));

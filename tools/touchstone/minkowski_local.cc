@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -21,6 +22,9 @@ namespace touchstone {
 namespace {
 
 using Eigen::Vector3d;
+
+// That --judge tries in the ball, a frame.
+constexpr int kJudgedSegments = 20;
 
 double ParseNumber(const std::string& option, const std::string& word) {
   const auto number = ParseDouble(word);
@@ -128,23 +132,22 @@ void Print(const LocalSum& sum, const std::vector<FrameRow>& rows) {
 }  // namespace
 
 void AddLocalSumOptions(CLI::App* command, LocalSumArguments* arguments) {
-  command
-      ->add_option("--ball", arguments->ball,
-                   "only what meets this ball of translations: centre x y z, radius")
-      ->expected(4);
-  command
-      ->add_option("--builder", arguments->builder,
-                   "full, brute-force, sphere-hierarchy or gap-filling")
+  CLI::Option* ball =
+      command
+          ->add_option("--ball", arguments->ball,
+                       "only what meets this ball of translations: centre x y z, radius")
+          ->expected(4);
+  const auto add = [&](const std::string& name, auto& value, const std::string& help) {
+    return command->add_option(name, value, help)->needs(ball);
+  };
+  add("--builder", arguments->builder, "full, brute-force, sphere-hierarchy or gap-filling")
       ->capture_default_str();
-  command->add_option("--frames", arguments->frames, "so many, B moving from one to the next")
+  add("--frames", arguments->frames, "so many, B moving from one to the next")
       ->capture_default_str();
-  command->add_option("--turn", arguments->turn, "degrees a frame, about B's origin")
-      ->capture_default_str();
-  command->add_option("--axis", arguments->axis, "of the turn, in A's frame; z unless given")
-      ->expected(3);
-  command->add_option("--travel", arguments->travel, "of B a frame, in A's frame; 0 unless given")
-      ->expected(3);
-  command->add_option("--csv", arguments->csv, "write a line a frame to this file");
+  add("--turn", arguments->turn, "degrees a frame, about B's origin")->capture_default_str();
+  add("--axis", arguments->axis, "of the turn, in A's frame; z unless given")->expected(3);
+  add("--travel", arguments->travel, "of B a frame, in A's frame; 0 unless given")->expected(3);
+  add("--csv", arguments->csv, "write a line a frame to this file");
 }
 
 int RunLocalSum(const LocalSumArguments& arguments, const TriangleMesh& a, const TriangleMesh& b,
@@ -162,6 +165,7 @@ int RunLocalSum(const LocalSumArguments& arguments, const TriangleMesh& a, const
   if (!(axis.norm() > 0.0)) throw BadInput{"--axis: of length zero"};
   LocalMinkowskiSum sums(a, b, {*builder});
   std::vector<FrameRow> rows;
+  int judged = 0, refuted = 0;
   for (int frame = 0; frame < arguments.frames; ++frame) {
     const double angle = frame * arguments.turn * std::numbers::pi / 180.0;
     const Eigen::Matrix3d turn =
@@ -175,13 +179,21 @@ int RunLocalSum(const LocalSumArguments& arguments, const TriangleMesh& a, const
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
     if (!sum.status.ok()) throw BadInput{"--ball: " + sum.status.ToString()};
     rows.push_back(RowOf(sum, time.count()));
+    if (!arguments.judge) continue;
+    judged += kJudgedSegments;
+    refuted += CountRefutedSegments(a, b, *placed, ball, sum, kJudgedSegments,
+                                    static_cast<std::uint64_t>(frame));
   }
   const LocalSum& sum = sums.sum();
   if (!out.empty() && !WriteOff(out, sum)) throw BadInput{"--out: " + out + " cannot be written"};
   if (!arguments.csv.empty()) WriteCsv(arguments.csv, rows);
+  const int exit_code = refuted == 0 ? kFine : kFindings;
   if (!json) {
     Print(sum, rows);
-    return kFine;
+    if (arguments.judge) {
+      std::cout << "judge            " << judged << " segments, " << refuted << " refuted\n";
+    }
+    return exit_code;
   }
   Json result = ToJson(rows.back());
   result["builder"] = ToString(*builder);
@@ -193,8 +205,9 @@ int RunLocalSum(const LocalSumArguments& arguments, const TriangleMesh& a, const
   result["points"] = sum.points.size();
   result["frames"] = arguments.frames;
   result["median_ms"] = MedianMs(rows);
+  if (arguments.judge) result["judge"] = {{"segments", judged}, {"refuted", refuted}};
   std::cout << result.dump(2) << '\n';
-  return kFine;
+  return exit_code;
 }
 
 }  // namespace touchstone

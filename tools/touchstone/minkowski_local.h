@@ -20,6 +20,7 @@ struct LocalSumArguments {
   double turn = 1.0;  // degrees a frame
   std::vector<std::string> axis, travel;
   std::string csv;
+  bool judge = false;  // set by the caller
 };
 
 void AddLocalSumOptions(CLI::App* command, LocalSumArguments* arguments);
