@@ -86,6 +86,31 @@ TEST_F(MeshCommands, ShapesPosesAndSlots) {
   EXPECT_EQ(turned.json()["judge"]["constructed"], false);
 }
 
+// Off degenerate poses, where several names fit a point, every builder leaves the same surface to
+// the byte.
+TEST_F(MeshCommands, LocalSumsByEveryBuilder) {
+  const std::string out = folder.path("local.off"), csv = folder.path("frames.csv");
+  std::set<std::string> surfaces;
+  for (const std::string builder : {"full", "brute-force", "sphere-hierarchy", "gap-filling"}) {
+    const ProgramRun run = RunProgram(
+        "minkowski shape:torus:128 shape:star --ball 0 0 4 4" + (" --builder " + builder) +
+        " --frames 5 --turn 7 --axis 1 2 3 --out " + out + " --csv " + csv + " --judge --json");
+    ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+    const auto json = run.json();
+    EXPECT_EQ(json["builder"], builder);
+    EXPECT_GT(json["triangles"], 0);
+    EXPECT_EQ(json["frames"], 5);
+    EXPECT_EQ(json["judge"]["segments"], 100);
+    EXPECT_EQ(json["judge"]["refuted"], 0);
+    const std::string rows = folder.Read("frames.csv");
+    EXPECT_THAT(rows, StartsWith("frame,milliseconds,triangles,cells,facets,new,kept,dropped,"));
+    EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 6);
+    surfaces.insert(folder.Read("local.off"));
+  }
+  EXPECT_EQ(surfaces.size(), 1u);
+  EXPECT_THAT(*surfaces.begin(), StartsWith("OFF\n"));
+}
+
 TEST_F(MeshCommands, MembershipAnswersAndIsJudged) {
   const std::string pair = "membership shape:slot shape:key ";
   for (const auto& [at, answer] : {std::pair("2 1 2", "touch"), std::pair("2.25 1 2", "overlap"),
@@ -120,6 +145,11 @@ TEST_F(MeshCommands, BadArgumentsAreRefused) {
   ExpectRefused("membership " + cube + ' ' + cube + " --at 0 0 inf", "is not a finite number");
   ExpectRefused("membership " + cube + ' ' + cube, "--at");
   ExpectRefused("minkowski " + cube, "B is required");
+  const std::string pair = "minkowski " + cube + ' ' + cube;
+  ExpectRefused(pair + " --frames 3", "--frames requires --ball");
+  ExpectRefused(pair + " --ball 0 0 nan 1", "is not a finite number");
+  ExpectRefused(pair + " --ball 0 0 0 -1", "radius is negative");
+  ExpectRefused(pair + " --ball 0 0 0 1 --builder any", "'any' is none of");
 }
 
 TEST(VerifyMembership, PiecesAddUp) {
