@@ -80,7 +80,8 @@ class BallList {
     largest_ = 0.0;
   }
   void Add(const BurialBall& ball);
-  // Whether one ball holds all points within `radius` of `centre`.
+  // Whether one ball holds all points within `radius` of `centre`; no ball does unless MayHold.
+  bool MayHold(double radius) const { return radius < largest_; }
   bool Holds(const Eigen::Vector3d& centre, double radius) const;
   // Whether one ball holds all the points, each with `margin` to spare.
   bool Holds(std::span<const Eigen::Vector3d> points, double margin) const;

@@ -54,17 +54,10 @@ void CandidateList::AddPairs(const MeshPair& pair, const ContactBody& body_a,
   while (!stack_.empty()) {
     const auto [code_a, code_b] = stack_.back();
     stack_.pop_back();
-    FeatureNode alone_a, alone_b;
-    const auto node_of = [](PlacedFeatureTree* tree, int code,
-                            FeatureNode* alone) -> const FeatureNode& {
-      if (code >= 0) return tree->node(code);
-      *alone = LaneAlone(tree->node(~code / kFeatureTreeWidth), ~code % kFeatureTreeWidth);
-      return *alone;
-    };
-    const FeatureNode& a = node_of(&tree_a, code_a, &alone_a);
-    const FeatureNode& b = node_of(&tree_b, code_b, &alone_b);
+    const FeatureLanes lanes_a = tree_a.lanes(code_a), lanes_b = tree_b.lanes(code_b);
+    const FeatureNode &a = *lanes_a.node, &b = *lanes_b.node;
     std::uint8_t masks[kFeatureTreeWidth];
-    MeetingFeatures(a, b, radius_, false, masks);
+    MeetingFeatures(lanes_a, lanes_b, radius_, false, masks);
     for (int j = 0; j < b.lane_count; ++j) {
       for (unsigned mask = masks[j]; mask != 0; mask &= mask - 1) {
         const int i = std::countr_zero(mask);
@@ -77,10 +70,8 @@ void CandidateList::AddPairs(const MeshPair& pair, const ContactBody& body_a,
           }
           continue;
         }
-        const auto next = [](int child, int code, int lane) {
-          return child >= 0 ? child : code < 0 ? code : ~(kFeatureTreeWidth * code + lane);
-        };
-        stack_.emplace_back(next(child_a, code_a, i), next(child_b, code_b, j));
+        stack_.emplace_back(FeatureLanes::Next(child_a, code_a, i),
+                            FeatureLanes::Next(child_b, code_b, j));
       }
     }
   }

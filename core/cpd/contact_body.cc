@@ -103,7 +103,8 @@ FeatureTree HollowTree(const TriangleMesh& mesh) {
     if (const auto cone = ConeOfHollow(mesh, v)) bounds[v].cone = *cone;
     items.push_back(v);
   }
-  return FeatureTree(bounds, std::move(items));
+  constexpr bool kHasNormals = false;
+  return FeatureTree(bounds, std::move(items), kHasNormals);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Whether the nearest point of a piece is the answer.
+#include <algorithm>
 #include <cmath>
 
 #include "touchstone/core/cpd/depth_searcher_internal.h"
@@ -9,6 +10,23 @@ namespace touchstone::internal {
 namespace {
 
 constexpr double kNameDistance = 0x1p-24;  // a name further off than this is not the point's
+constexpr double kSameWay = 1.0 - 0x1p-40;
+
+// Off the contacts that a point stands for, and off the origin, where that is another way.
+class WaysOut {
+ public:
+  explicit WaysOut(const PointEstimate& point) {
+    const Eigen::Vector3d away = point.at.stableNormalized();
+    if (point.out.allFinite()) ways_[count_++] = point.out;
+    if (away.allFinite() && !(point.out.dot(away) > kSameWay)) ways_[count_++] = away;
+  }
+  const Eigen::Vector3d* begin() const { return ways_; }
+  const Eigen::Vector3d* end() const { return ways_ + count_; }
+
+ private:
+  Eigen::Vector3d ways_[2];
+  int count_ = 0;
+};
 
 }  // namespace
 
@@ -23,20 +41,19 @@ Verdict DepthSearcher::VerdictAt(const Vector3d& x) {
 void DepthSearcher::TryRemembered() {
   if (!s_.answer || !IsNameOfPair(*s_.answer)) return;
   const auto point = EstimatePoint(pair_, *s_.answer);
-  if (point) answer_.was_warm = IsOutside(*s_.answer, *point);
+  if (!point) return;
+  const WaysOut ways(*point);
+  answer_.was_warm = std::any_of(ways.begin(), ways.end(), [&](const Vector3d& out) {
+    return IsOutside(*s_.answer, point->at + kStep * out);
+  });
 }
 
-bool DepthSearcher::IsOutside(const ContactName& name, const PointEstimate& point) {
-  for (const Vector3d& out : {point.out, Vector3d(point.at.stableNormalized())}) {
-    const Vector3d x = point.at + kStep * out;
-    if (!x.allFinite()) continue;
-    const Verdict verdict = VerdictAt(x);
-    if (verdict == Verdict::kOverlap) AddWitness(x, last_.face_a, last_.face_b);
-    if (verdict != Verdict::kSeparate) continue;
-    if (x.norm() * kRoundUp < answer_.upper) Take(x, name);
-    return true;
-  }
-  return false;
+bool DepthSearcher::IsOutside(const ContactName& name, const Vector3d& x) {
+  const Verdict verdict = VerdictAt(x);
+  if (verdict == Verdict::kOverlap) AddWitness(x, last_.face_a, last_.face_b);
+  if (verdict != Verdict::kSeparate) return false;
+  if (x.norm() * kRoundUp < answer_.upper) Take(x, name);
+  return true;
 }
 
 bool DepthSearcher::IsNameOfPair(const ContactName& name) const {
@@ -71,7 +88,10 @@ bool DepthSearcher::LookAt(const FacetPiece& piece) {
   }
   const NearestPoint nearest = NearestOf(piece);
   const Vector3d x = frame.At(nearest.at);
-  if (piece.cuts < kMaxCuts && CutByKnown(piece, nearest, x)) return false;
+  if (piece.cuts < kMaxCuts) {
+    if (CutByKnown(piece, nearest, x)) return false;
+    if (WalkToWitness(x, 4.0 * SlackOf(piece)) && CutByKnown(piece, nearest, x)) return false;
+  }
   return Decide(piece, nearest, x);
 }
 
@@ -80,9 +100,13 @@ bool DepthSearcher::Decide(const FacetPiece& piece, const NearestPoint& nearest,
   const ContactName name = NameOf(piece, nearest);
   const auto point = EstimatePoint(pair_, name);
   const bool is_near = point && (point->at - x).norm() < kNameDistance;
-  if (is_near && IsOutside(name, *point)) return found_ = true;
   const bool may_cut = piece.cuts < kMaxCuts;
-  if (is_near && may_cut && CutByKnown(piece, nearest, x)) return false;
+  if (is_near) {
+    for (const Vector3d& out : WaysOut(*point)) {
+      if (IsOutside(name, point->at + kStep * out)) return found_ = true;
+      if (may_cut && CutByKnown(piece, nearest, x)) return false;
+    }
+  }
   const Verdict verdict = VerdictAt(x);
   if (verdict == Verdict::kSeparate) {
     Take(x, name);

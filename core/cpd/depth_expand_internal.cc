@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kListFrames = 8.0;  // steps of a motion that a list has room for
 constexpr double kListAngle = 0.06;  // beyond, lists would hold too much
+constexpr double kReach = 4.0;       // times the radius: what is further off is not even noted
+constexpr double kRoundDown = 1.0 - 0x1p-30;
 
 }  // namespace
 
@@ -91,6 +93,13 @@ void DepthSearcher::PlaceTrees(double distance, double angle) {
   s_.vertices_b.Place(b_.vertices(), rotation, translation, scale, distance, angle);
   s_.edges_b.Place(b_.convex_edges(), rotation, translation, scale, distance, angle);
   s_.hollows_b.Place(b_.hollow_vertices(), rotation, translation, scale, distance, angle);
+  BeginAtRoots(is_listing_ ? s_.list.limit : kReach * radius_);
+  made_ = 0.0;
+}
+
+void DepthSearcher::BeginAtRoots(double reach) {
+  reach_ = reach;
+  s_.later.clear();
   for (const SumKind kind :
        {SumKind::kFaceVertex, SumKind::kVertexFace, SumKind::kEdgeEdge, SumKind::kVertexVertex}) {
     if (!TreeA(kind).empty() && !TreeB(kind).empty()) s_.later.push_back({0.0, kind, 0, 0});
@@ -126,6 +135,7 @@ PlacedFeatureTree& DepthSearcher::TreeB(SumKind kind) {
 }
 
 void DepthSearcher::ExpandWithinRadius() {
+  if (radius_ > reach_) BeginAtRoots(kReach * radius_);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < s_.later.size(); ++i) {
     if (!is_listing_ && s_.later[i].near >= answer_.upper) continue;
@@ -141,52 +151,42 @@ void DepthSearcher::ExpandWithinRadius() {
     s_.stack.pop_back();
     Expand(pair);
   }
-}
-
-const FeatureNode& DepthSearcher::NodeOf(PlacedFeatureTree& tree, int code, FeatureNode* alone) {
-  if (code >= 0) return tree.node(code);
-  *alone = LaneAlone(tree.node(~code / kFeatureTreeWidth), ~code % kFeatureTreeWidth);
-  return *alone;
+  made_ = kRoundDown * radius_;
 }
 
 void DepthSearcher::Expand(const NodePair& pair) {
   ++result_.node_pairs;
-  FeatureNode alone_a, alone_b;
-  const FeatureNode& node_a = NodeOf(TreeA(pair.kind), pair.a, &alone_a);
-  const FeatureNode& node_b = NodeOf(TreeB(pair.kind), pair.b, &alone_b);
+  const FeatureLanes a = TreeA(pair.kind).lanes(pair.a), b = TreeB(pair.kind).lanes(pair.b);
   std::uint8_t masks[kFeatureTreeWidth];
-  const double limit = is_listing_ ? s_.list.limit : answer_.upper;
+  const double limit = is_listing_ ? reach_ : std::min(reach_, answer_.upper);
+  MeetingFeatures(a, b, limit, pair.kind != SumKind::kVertexVertex, masks);
+  for (int j = 0; j < b.node->lane_count; ++j) {
+    for (unsigned mask = masks[j]; mask != 0; mask &= mask - 1) {
+      AddLanes(pair, *a.node, std::countr_zero(mask), *b.node, j);
+    }
+  }
+}
+
+void DepthSearcher::AddLanes(const NodePair& pair, const FeatureNode& a, int i,
+                             const FeatureNode& b, int j) {
   // Whatever the motion does, a ball and a facet move by no more than the distance each.
   const double margin = is_listing_ ? s_.list.distance : 0.0;
-  MeetingFeatures(node_a, node_b, limit, pair.kind != SumKind::kVertexVertex, masks);
-  for (int j = 0; j < node_b.lane_count; ++j) {
-    for (unsigned mask = masks[j]; mask != 0; mask &= mask - 1) {
-      const int i = std::countr_zero(mask);
-      const int child_a = node_a.children[i], child_b = node_b.children[j];
-      const bool is_item = child_a < 0 && child_b < 0;
-      const Vector3d centre(node_a.centre[0][i] - node_b.centre[0][j],
-                            node_a.centre[1][i] - node_b.centre[1][j],
-                            node_a.centre[2][i] - node_b.centre[2][j]);
-      const double radius = node_a.radius[i] + node_b.radius[j];
-      const double near = centre.norm() - radius;
-      if (s_.balls.Holds(centre, radius + margin)) continue;
-      if (is_item && near < radius_) {
-        if (is_listing_) {
-          ListItem(pair.kind, ~child_a, ~child_b);
-        } else {
-          AddItem(pair.kind, ~child_a, ~child_b);
-        }
-        continue;
-      }
-      const NodePair next = {near, pair.kind,
-                             child_a >= 0 ? child_a
-                             : pair.a < 0 ? pair.a
-                                          : ~(kFeatureTreeWidth * pair.a + i),
-                             child_b >= 0 ? child_b
-                             : pair.b < 0 ? pair.b
-                                          : ~(kFeatureTreeWidth * pair.b + j)};
-      (next.near < radius_ ? s_.stack : s_.later).push_back(next);
-    }
+  const double radius = a.radius[i] + b.radius[j] + margin;
+  if (s_.balls.MayHold(radius)) {
+    const Vector3d centre(a.centre[0][i] - b.centre[0][j], a.centre[1][i] - b.centre[1][j],
+                          a.centre[2][i] - b.centre[2][j]);
+    if (s_.balls.Holds(centre, radius)) return;
+  }
+  const int child_a = a.children[i], child_b = b.children[j];
+  const double near = std::max(pair.near, NearestSum(a, i, b, j));
+  if (child_a >= 0 || child_b >= 0 || !(near < radius_)) {
+    (near < radius_ ? s_.stack : s_.later)
+        .push_back({near, pair.kind, FeatureLanes::Next(child_a, pair.a, i),
+                    FeatureLanes::Next(child_b, pair.b, j)});
+  } else if (is_listing_) {
+    ListItem(pair.kind, ~child_a, ~child_b);
+  } else if (!(near < made_)) {
+    AddItem(pair.kind, ~child_a, ~child_b);
   }
 }
 

@@ -100,8 +100,8 @@ bool DepthSearcher::Push(const FacetPiece& piece) {
 
 void DepthSearcher::Explore() {
   if (!UseList()) {
-    PlaceTrees(0.0, 0.0);
     radius_ = answer_.was_warm ? answer_.upper : 0.0625 * answer_.upper;
+    PlaceTrees(0.0, 0.0);
     ExpandWithinRadius();
   }
   while (true) {

@@ -21,7 +21,7 @@ namespace touchstone::internal {
 // Which features' sums a pair of nodes stands for.
 enum class SumKind : std::uint8_t { kFaceVertex, kVertexFace, kEdgeEdge, kVertexVertex };
 
-// A node of either tree, or ~(8 node + lane) for a lane that holds an item.
+// By the codes of FeatureLanes.
 struct NodePair {
   double near;
   SumKind kind;

@@ -33,9 +33,9 @@ class DepthSearcher {
   Verdict VerdictAt(const Eigen::Vector3d& x);
   // Takes the cached answer's features at the new pose for a first answer, if they still are one.
   void TryRemembered();
-  // Whether a point a step off the named one's contacts is not in M°; it is taken for the answer if
+  // Whether x, a step off the named point's contacts, is not in M°; it is taken for the answer if
   // it is nearer. If it is in M°, what shows that is kept.
-  bool IsOutside(const ContactName& name, const PointEstimate& point);
+  bool IsOutside(const ContactName& name, const Eigen::Vector3d& x);
   // Names come from a cache that may have served another pair.
   bool IsNameOfPair(const ContactName& name) const;
   void RecallWitnesses();
@@ -45,6 +45,8 @@ class DepthSearcher {
   // Sets that hold x, from two faces that cross there, or from a component within the other solid.
   // Returns the depth of x in the prism.
   double AddWitness(const Eigen::Vector3d& x, int face_a, int face_b);
+  // A prism that holds x by more than `least`, from the one at hand that comes nearest to it.
+  bool WalkToWitness(const Eigen::Vector3d& x, double least);
   void AddClearance(const Eigen::Vector3d& x);
   // Pairs of faces that may cross at x give prisms, until one holds it well; for points near the
   // walls of the first ones.
@@ -60,10 +62,13 @@ class DepthSearcher {
   void PlaceTrees(double distance, double angle);
   PlacedFeatureTree& TreeA(SumKind kind);
   PlacedFeatureTree& TreeB(SumKind kind);
-  // Makes all facets that may come within `radius_`; other pairs wait.
+  // All pairs of features again, of which those within the reach are seen.
+  void BeginAtRoots(double reach);
+  // Makes all facets that may come within `radius_`, but for those made before; other pairs wait.
   void ExpandWithinRadius();
-  static const FeatureNode& NodeOf(PlacedFeatureTree& tree, int code, FeatureNode* alone);
   void Expand(const NodePair& pair);
+  // A pair of lanes that meet: its items, or to be expanded, now or later.
+  void AddLanes(const NodePair& pair, const FeatureNode& a, int i, const FeatureNode& b, int j);
   void AddItem(SumKind kind, int a, int b);
   void AddEdgeEdge(int a, int b);
   void AddFacet(const SumFacet& name);
@@ -110,7 +115,7 @@ class DepthSearcher {
   MeshDepthResult& result_;
   DepthAnswer answer_;
   MembershipResult last_;
-  double radius_ = 0.0;
+  double radius_ = 0.0, reach_ = 0.0, made_ = 0.0;
   double open_ = std::numeric_limits<double>::infinity();
   bool found_ = false;
   bool is_listing_ = false;

@@ -11,7 +11,8 @@
 
 namespace touchstone {
 
-// Where a feature is, and which way it can be in contact.
+// Where a feature is, and which way it can be in contact. The centre is a point of the feature, or
+// of the plane or line that it lies in.
 struct FeatureBound {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0.0;
@@ -21,14 +22,29 @@ struct FeatureBound {
 inline constexpr int kFeatureTreeWidth = 8;
 
 // Eight bounds, their numbers in lanes. Lane l is round node children[l], or the item ~children[l].
-// A cone that bounds nothing has cosine -2.
+// A cone that bounds nothing has cosine -2. Along any normal in contact a feature is higher than
+// the centre by something within `flat` of `lift`: what is left of its extent, as faces and edges
+// lie across their normals.
 struct alignas(64) FeatureNode {
   double centre[3][kFeatureTreeWidth];
   double radius[kFeatureTreeWidth];
+  double lift[kFeatureTreeWidth], flat[kFeatureTreeWidth];
   double axis[3][kFeatureTreeWidth];
   double cosine[kFeatureTreeWidth], sine[kFeatureTreeWidth];
   std::int32_t children[kFeatureTreeWidth];
   int lane_count;
+};
+
+// A node, or one lane of it, to go against the nodes of a deeper tree. Its code is the node's
+// number, or ~(width node + lane).
+struct FeatureLanes {
+  const FeatureNode* node;
+  int lane = -1;  // all
+
+  // The code of what is under a lane: a node, or an item, whose lane goes on alone.
+  static int Next(int child, int code, int lane) {
+    return child >= 0 ? child : code < 0 ? code : ~(kFeatureTreeWidth * code + lane);
+  }
 };
 
 // A tree of spheres and normal cones over features of one kind, in the body's frame. Cosines and
@@ -36,17 +52,29 @@ struct alignas(64) FeatureNode {
 class FeatureTree {
  public:
   FeatureTree() = default;
-  // Over the items listed, item k with bounds[items[k]]. Complexity: O(n log n).
-  FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> items);
+  // Over the items listed, item k with bounds[items[k]]. Features without normals, such as vertices
+  // that lock into each other, have cones that bound something else, and no heights. Complexity:
+  // O(n log n).
+  FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> items,
+              bool has_normals = true);
 
   // Node 0 is the root.
   std::span<const FeatureNode> nodes() const { return nodes_; }
 
  private:
+  // A lane's bound, and what is under it.
+  struct Branch {
+    FeatureBound bound;
+    int child;
+    std::span<const int> items;
+  };
   FeatureBound AddNode(std::span<const FeatureBound> bounds, std::span<int> items);
+  void SetLane(std::span<const FeatureBound> bounds, const Branch& branch, int lane,
+               FeatureNode* node) const;
 
   std::vector<FeatureNode> nodes_;
   double extent_ = 0.0;
+  bool has_normals_ = true;
 };
 
 // A feature tree placed in another frame: x to scale (R x + t), node by node as they are asked for.
@@ -63,6 +91,10 @@ class PlacedFeatureTree {
     if (stamps_[i] != stamp_) PlaceNode(i);
     return nodes_[i];
   }
+  FeatureLanes lanes(int code) {
+    if (code >= 0) return {&node(code)};
+    return {&node(~code / kFeatureTreeWidth), ~code % kFeatureTreeWidth};
+  }
 
  private:
   void PlaceNode(int i);
@@ -70,7 +102,7 @@ class PlacedFeatureTree {
   const FeatureTree* tree_ = nullptr;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d translation_;
-  double scale_ = 1.0, distance_ = 0.0, cosine_ = 1.0, sine_ = 0.0;
+  double scale_ = 1.0, distance_ = 0.0, angle_ = 0.0, cosine_ = 1.0, sine_ = 0.0;
   std::uint32_t stamp_ = 0;
   std::vector<std::uint32_t> stamps_;
   std::vector<FeatureNode> nodes_;
@@ -79,11 +111,11 @@ class PlacedFeatureTree {
 // Pairs of lanes whose sums a - b come within `limit` of the origin, whose cones meet (A's with
 // minus B's), and, if asked for, some facet of which may have the origin on its inner side: bit i
 // of masks[j] for lane i of A and lane j of B.
-void MeetingFeatures(const FeatureNode& a, const FeatureNode& b, double limit, bool faces_away,
+void MeetingFeatures(const FeatureLanes& a, const FeatureLanes& b, double limit, bool faces_away,
                      std::uint8_t masks[kFeatureTreeWidth]);
 
-// A lane alone, as a node, to go against the nodes of a deeper tree.
-FeatureNode LaneAlone(const FeatureNode& node, int lane);
+// No more than the distance from the origin of any sum of lane i of A and lane j of B.
+double NearestSum(const FeatureNode& a, int i, const FeatureNode& b, int j);
 
 }  // namespace touchstone
 
