@@ -2,6 +2,7 @@
 #include "touchstone/core/minkowski/feature_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -96,9 +97,12 @@ FeatureTree::FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> 
   AddNode(bounds, items);
 }
 
-FeatureBound FeatureTree::AddNode(std::span<const FeatureBound> bounds, std::span<int> items) {
-  const std::size_t index = nodes_.size();
+FeatureBound FeatureTree::AddNode(std::span<const FeatureBound> bounds, std::span<int> items,
+                                  int parent, int parent_lane) {
+  const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
+  nodes_[index].parent = parent;
+  nodes_[index].parent_lane = parent_lane;
   std::ptrdiff_t size = 1;
   while (size * kWidth < std::ssize(items)) size *= kWidth;
   std::vector<std::span<int>> runs;
@@ -111,7 +115,7 @@ FeatureBound FeatureTree::AddNode(std::span<const FeatureBound> bounds, std::spa
       const std::span<int> run = runs[lane];
       branch.items = run;
       branch.child = run.size() == 1 ? ~run[0] : static_cast<int>(nodes_.size());
-      branch.bound = run.size() == 1 ? bounds[run[0]] : AddNode(bounds, run);
+      branch.bound = run.size() == 1 ? bounds[run[0]] : AddNode(bounds, run, index, lane);
     }
     SetLane(bounds, branch, lane, &nodes_[index]);
     lanes[lane] = branch.bound;
@@ -205,6 +209,8 @@ void PlacedFeatureTree::PlaceNode(int i) {
   std::memcpy(to.sine, from.sine, sizeof to.sine);
   std::memcpy(to.children, from.children, sizeof to.children);
   to.lane_count = from.lane_count;
+  to.parent = from.parent;
+  to.parent_lane = from.parent_lane;
   if (angle_ == 0.0) return;
   for (int lane = 0; lane < kWidth; ++lane) {
     const double wider = from.cosine[lane] * cosine_ - from.sine[lane] * sine_;
@@ -226,9 +232,9 @@ void PlacedFeatureTree::PlaceNode(int i) {
 // and the cones turn to their negatives. What fails is told by sign bits, for comparisons of
 // vectors run lane by lane in clones.
 
-// Byte j of the result is the mask of lanes of X that meet lane first + j of Y.
+// Byte j of the result is the mask of lanes of X that meet lane j of Y, for lanes in `lanes_of_y`.
 TOUCHSTONE_INLINE std::uint64_t MeetingLanesOf(const FeatureNode& x, const FeatureNode& y,
-                                               int first, int count, double limit,
+                                               unsigned lanes_of_y, double limit,
                                                double least_rise) {
   Reals centre[3], axis[3], radius, lift, flat, cosine, sine;
   LoadThree(x.centre, centre);
@@ -243,8 +249,8 @@ TOUCHSTONE_INLINE std::uint64_t MeetingLanesOf(const FeatureNode& x, const Featu
   const Flags x_is_narrow = ~(Flags)(cosine + 1.0);
   const Flags lanes = {1, 2, 4, 8, 16, 32, 64, 128};
   Flags all = {};
-  for (int k = 0; k < count; ++k) {
-    const int j = first + k;
+  for (; lanes_of_y != 0; lanes_of_y &= lanes_of_y - 1) {
+    const int j = std::countr_zero(lanes_of_y);
     const Reals c0 = centre[0] - y.centre[0][j], c1 = centre[1] - y.centre[1][j],
                 c2 = centre[2] - y.centre[2][j];
     const Reals squared = c0 * c0 + c1 * c1 + c2 * c2;
@@ -270,7 +276,7 @@ TOUCHSTONE_INLINE std::uint64_t MeetingLanesOf(const FeatureNode& x, const Featu
     const Flags is_above_y = ~(Flags)least_y & (Flags)(across_y - least_y * least_y);
     const Flags fails = is_far | is_parted | ((is_below_x | is_above_x) & x_is_narrow) |
                         ((is_below_y | is_above_y) & y_is_narrow);
-    all |= ~(fails >> 63) & (lanes << (8 * k));
+    all |= ~(fails >> 63) & (lanes << (8 * j));
   }
   std::uint64_t masks = 0;
   for (int i = 0; i < kWidth; ++i) masks |= static_cast<std::uint64_t>(all[i]);
@@ -282,18 +288,19 @@ TOUCHSTONE_VECTOR_CLONES
 void MeetingFeatures(const FeatureLanes& a, const FeatureLanes& b, double limit, bool faces_away,
                      std::uint8_t masks[kWidth]) {
   const double least_rise = faces_away ? -0x1p-46 : -1e100;
-  for (int j = 0; j < kWidth; ++j) masks[j] = 0;
-  if (a.lane < 0) {
-    const int first = std::max(b.lane, 0), count = b.lane < 0 ? b.node->lane_count : 1;
-    const std::uint64_t all = MeetingLanesOf(*a.node, *b.node, first, count, limit, least_rise);
-    for (int k = 0; k < count; ++k) masks[first + k] = static_cast<std::uint8_t>(all >> (8 * k));
+  unsigned lanes_of_b = b.lane < 0 ? (1u << b.node->lane_count) - 1 : 1u << b.lane;
+  if (a.lane >= 0 || (b.lane < 0 && a.parent != nullptr)) {
+    // Lanes of B against one lane: A's own, or the one round it, which spares most of them.
+    const FeatureNode& of_a = a.lane >= 0 ? *a.node : *a.parent;
+    const int lane = a.lane >= 0 ? a.lane : a.node->parent_lane;
+    lanes_of_b &= MeetingLanesOf(*b.node, of_a, 1u << lane, limit, least_rise) >> (8 * lane);
+  }
+  if (a.lane >= 0) {
+    for (int j = 0; j < kWidth; ++j) masks[j] = ((lanes_of_b >> j) & 1) << a.lane;
     return;
   }
-  // B's lanes in vectors.
-  const std::uint64_t turned = MeetingLanesOf(*b.node, *a.node, a.lane, 1, limit, least_rise);
-  for (int j = 0; j < kWidth; ++j) {
-    if (b.lane < 0 || b.lane == j) masks[j] = ((turned >> j) & 1) << a.lane;
-  }
+  const std::uint64_t all = MeetingLanesOf(*a.node, *b.node, lanes_of_b, limit, least_rise);
+  for (int j = 0; j < kWidth; ++j) masks[j] = static_cast<std::uint8_t>(all >> (8 * j));
 }
 
 double NearestSum(const FeatureNode& a, int i, const FeatureNode& b, int j) {

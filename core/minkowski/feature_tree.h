@@ -33,13 +33,15 @@ struct alignas(64) FeatureNode {
   double cosine[kFeatureTreeWidth], sine[kFeatureTreeWidth];
   std::int32_t children[kFeatureTreeWidth];
   int lane_count;
+  std::int32_t parent, parent_lane;  // the lane round this node; -1 at the root
 };
 
 // A node, or one lane of it, to go against the nodes of a deeper tree. Its code is the node's
 // number, or ~(width node + lane).
 struct FeatureLanes {
   const FeatureNode* node;
-  int lane = -1;  // all
+  int lane = -1;                        // all
+  const FeatureNode* parent = nullptr;  // of a node as a whole, but for the root
 
   // The code of what is under a lane: a node, or an item, whose lane goes on alone.
   static int Next(int child, int code, int lane) {
@@ -68,7 +70,8 @@ class FeatureTree {
     int child;
     std::span<const int> items;
   };
-  FeatureBound AddNode(std::span<const FeatureBound> bounds, std::span<int> items);
+  FeatureBound AddNode(std::span<const FeatureBound> bounds, std::span<int> items, int parent = -1,
+                       int parent_lane = -1);
   void SetLane(std::span<const FeatureBound> bounds, const Branch& branch, int lane,
                FeatureNode* node) const;
 
@@ -92,7 +95,10 @@ class PlacedFeatureTree {
     return nodes_[i];
   }
   FeatureLanes lanes(int code) {
-    if (code >= 0) return {&node(code)};
+    if (code >= 0) {
+      const FeatureNode& all = node(code);
+      return {&all, -1, all.parent < 0 ? nullptr : &node(all.parent)};
+    }
     return {&node(~code / kFeatureTreeWidth), ~code % kFeatureTreeWidth};
   }
 
