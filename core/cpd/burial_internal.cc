@@ -45,7 +45,7 @@ SumFacet FacetOf(const MeshPair& pair, const PrismName& name, int plane) {
 }
 
 bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
-               const PrismName& name, const Vector3d* x, Prism* prism) {
+               const PrismName& name, const Vector3d* x, Prism* prism, double outside) {
   const PlacedMesh& of_edge = name.edge_is_of_a ? pair.a() : pair.b();
   const PlacedMesh& of_face = name.edge_is_of_a ? pair.b() : pair.a();
   const ContactBody::Edge& edge = (name.edge_is_of_a ? a : b).edge(name.edge);
@@ -59,8 +59,11 @@ bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
   const Vector3d along = head - tail;
   const auto set = [&](int k, const Vector3d& normal, double error, const Vector3d& at) {
     // Most prisms are asked about a point that one of their planes leaves out.
-    if (x != nullptr && normal.dot(*x - at) * normal.dot(middle - at) <= 0.0) return false;
+    const double height_of_x = x != nullptr ? normal.dot(*x - at) : 0.0;
+    const bool is_outside = x != nullptr && height_of_x * normal.dot(middle - at) <= 0.0;
+    if (is_outside && outside == 0.0) return false;
     const double length = normal.norm();
+    if (is_outside && std::abs(height_of_x) > outside * length) return false;
     if (!(length > 0.0)) return false;
     Vector3d unit = normal / length;
     double height = unit.dot(at);
@@ -133,9 +136,9 @@ void PrismList::Margins(const Block& block, const Vector3d& x, double margins[kW
   for (int i = 0; i < kWidth; ++i) margins[i] = least[i];
 }
 
-int PrismList::Find(const Vector3d& x, double least) const {
+int PrismList::FindDeepest(const Vector3d& x) const {
   int best = -1;
-  double margins[kWidth];
+  double margins[kWidth], least = -1e299;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     Margins(blocks_[b], x, margins);
     for (int i = 0; i < kWidth; ++i) {

@@ -45,10 +45,10 @@ struct BurialBall {
 // The facet whose plane bounds a prism.
 SumFacet FacetOf(const MeshPair& pair, const PrismName& name, int plane);
 
-// The prism, if x lies in it, or without regard to x if that is null; false also where rounding
-// leaves nothing of it.
+// The prism, if x lies in it or outside of it by no more than `outside`, or without regard to x if
+// that is null; false also where rounding leaves nothing of it.
 bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
-               const PrismName& name, const Eigen::Vector3d* x, Prism* prism);
+               const PrismName& name, const Eigen::Vector3d* x, Prism* prism, double outside = 0.0);
 
 // The prisms met so far. Those of the last kWindow are searched, eight at a time.
 class PrismList {
@@ -57,8 +57,8 @@ class PrismList {
   int Add(const Prism& prism);  // its number
   const Prism& prism(int i) const { return prisms_[i]; }
   int size() const { return static_cast<int>(prisms_.size()); }
-  // The prism that holds x with the largest margin, if that is above `least`; else -1.
-  int Find(const Eigen::Vector3d& x, double least) const;
+  // The prism that holds x deepest, or comes nearest to it; -1 if there is none.
+  int FindDeepest(const Eigen::Vector3d& x) const;
 
  private:
   static constexpr int kWidth = 8, kWindow = 512;

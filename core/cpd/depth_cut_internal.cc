@@ -10,7 +10,8 @@
 namespace touchstone::internal {
 namespace {
 
-constexpr double kCrumb = 0x1p-34;  // half the side of what is left open where nothing decides
+constexpr double kCrumb = 0x1p-34;    // half the side of what is left open where nothing decides
+constexpr double kDeepInBall = 1e-3;  // then a ball buries more than a prism
 
 }  // namespace
 
@@ -20,12 +21,16 @@ using Eigen::Vector3d;
 bool DepthSearcher::CutByKnown(const FacetPiece& piece, const NearestPoint& nearest,
                                const Vector3d& x) {
   const double least = 4.0 * SlackOf(piece);
-  const BurialBall* ball = s_.balls.Find(x, 1e-3);
-  if (ball != nullptr && CutByBall(piece, nearest, *ball)) return true;
-  const int prism = s_.prisms.Find(x, least);
-  if (prism >= 0 && CutByPrism(piece, prism)) return true;
-  ball = s_.balls.Find(x, least);
-  return ball != nullptr && CutByBall(piece, nearest, *ball);
+  const BurialBall* ball = s_.balls.Find(x, least);
+  const bool is_deep = ball != nullptr && ball->radius - (x - ball->centre).norm() > kDeepInBall;
+  if (is_deep && CutByBall(piece, nearest, *ball)) return true;
+  const int prism = s_.prisms.FindDeepest(x);
+  if (prism >= 0) {
+    const bool holds_x = s_.prisms.prism(prism).Margin(x) > least;
+    const int deep = holds_x ? prism : WalkFrom(prism, x, least);
+    if (deep >= 0 && CutByPrism(piece, deep)) return true;
+  }
+  return ball != nullptr && !is_deep && CutByBall(piece, nearest, *ball);
 }
 
 bool DepthSearcher::CutByPrism(const FacetPiece& piece, int number) {

@@ -88,10 +88,7 @@ bool DepthSearcher::LookAt(const FacetPiece& piece) {
   }
   const NearestPoint nearest = NearestOf(piece);
   const Vector3d x = frame.At(nearest.at);
-  if (piece.cuts < kMaxCuts) {
-    if (CutByKnown(piece, nearest, x)) return false;
-    if (WalkToWitness(x, 4.0 * SlackOf(piece)) && CutByKnown(piece, nearest, x)) return false;
-  }
+  if (piece.cuts < kMaxCuts && CutByKnown(piece, nearest, x)) return false;
   return Decide(piece, nearest, x);
 }
 

@@ -45,8 +45,8 @@ class DepthSearcher {
   // Sets that hold x, from two faces that cross there, or from a component within the other solid.
   // Returns the depth of x in the prism.
   double AddWitness(const Eigen::Vector3d& x, int face_a, int face_b);
-  // A prism that holds x by more than `least`, from the one at hand that comes nearest to it.
-  bool WalkToWitness(const Eigen::Vector3d& x, double least);
+  // A prism that holds x by more than `least`, found next to one at hand; its number, or -1.
+  int WalkFrom(int prism, const Eigen::Vector3d& x, double least);
   void AddClearance(const Eigen::Vector3d& x);
   // Pairs of faces that may cross at x give prisms, until one holds it well; for points near the
   // walls of the first ones.
@@ -94,7 +94,7 @@ class DepthSearcher {
   ContactName NameOf(const FacetPiece& piece, const NearestPoint& nearest) const;
   // Which way an edge-edge facet's normal points, by the prism's.
   void OrientWall(const Eigen::Vector3d& normal, SumFacet* facet) const;
-  // Cuts off what known sets bury; whether x was among it.
+  // Cuts off what known sets bury, or one that is next to them; whether x was among it.
   bool CutByKnown(const FacetPiece& piece, const NearestPoint& nearest, const Eigen::Vector3d& x);
   bool CutByPrism(const FacetPiece& piece, int number);
   // The ball meets the plane in a disc. A chord across the piece, such that what lies on the

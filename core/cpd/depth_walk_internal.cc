@@ -73,10 +73,8 @@ class Corners {
 
 using Eigen::Vector3d;
 
-bool DepthSearcher::WalkToWitness(const Vector3d& x, double least) {
-  const int nearest = s_.prisms.Find(x, -1e300);
-  if (nearest < 0) return false;
-  const Prism& start = s_.prisms.prism(nearest);
+int DepthSearcher::WalkFrom(int number, const Vector3d& x, double least) {
+  const Prism& start = s_.prisms.prism(number);
   Corners corners({start.name, start.Margin(x)});
   Prism best, next;
   double deepest = least;
@@ -84,18 +82,15 @@ bool DepthSearcher::WalkToWitness(const Vector3d& x, double least) {
     const Corner* corner = corners.Take();
     if (corner == nullptr) break;
     // Next to the start x may be on the wall of all that there is, just outside of what goes on.
-    const Vector3d* required = look == 0 ? nullptr : &x;
+    const double outside = look == 0 ? kDeepEnough : 0.0;
     VisitNext(pair_, corner->name, [&](const PrismName& name) {
-      if (corners.Has(name) || !MakePrism(pair_, a_, b_, name, required, &next)) return;
+      if (corners.Has(name) || !MakePrism(pair_, a_, b_, name, &x, &next, outside)) return;
       const double margin = next.Margin(x);
-      if (margin < -kDeepEnough) return;
       corners.Add(name, margin);
       if (margin > deepest) deepest = margin, best = next;
     });
   }
-  if (!(deepest > least)) return false;
-  AddPrism(best);
-  return true;
+  return deepest > least ? AddPrism(best) : -1;
 }
 
 }  // namespace touchstone::internal
