@@ -22,19 +22,14 @@ using Eigen::Vector3d;
 
 DepthAnswer DepthSearcher::Run() {
   Reset();
-  const MembershipResult at_origin =
-      Membership(pair_, Vector3d(Vector3d::Zero()), {options_.certainty}, &s_.membership);
-  if (at_origin.verdict == Verdict::kSeparate || at_origin.verdict == Verdict::kTouch) {
+  RecallWitnesses();
+  if (!IsOverlapRecalled() && IsSeparate()) {
     answer_.status = MeshDepthStatus::kSeparate;
     answer_.upper = 0.0;
     return answer_;
   }
   PartBoxes();
   TryRemembered();
-  RecallWitnesses();
-  if (at_origin.verdict == Verdict::kOverlap) {
-    AddWitness(Vector3d::Zero(), at_origin.face_a, at_origin.face_b);
-  }
   Explore();
   Remember();
   return answer_;
@@ -52,6 +47,20 @@ void DepthSearcher::Reset() {
   s_.balls.Clear();
   s_.met_balls.clear();
   answer_.status = MeshDepthStatus::kCertain;
+}
+
+bool DepthSearcher::IsOverlapRecalled() const {
+  const Vector3d origin = Vector3d::Zero();
+  const int prism = s_.prisms.FindDeepest(origin);
+  return (prism >= 0 && s_.prisms.prism(prism).Margin(origin) > 0.0) ||
+         s_.balls.Find(origin, 0.0) != nullptr;
+}
+
+bool DepthSearcher::IsSeparate() {
+  const Vector3d origin = Vector3d::Zero();
+  const MembershipResult result = Membership(pair_, origin, {options_.certainty}, &s_.membership);
+  if (result.verdict == Verdict::kOverlap) AddWitness(origin, result.face_a, result.face_b);
+  return result.verdict == Verdict::kSeparate || result.verdict == Verdict::kTouch;
 }
 
 void DepthSearcher::PartBoxes() {

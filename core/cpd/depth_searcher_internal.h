@@ -27,6 +27,10 @@ class DepthSearcher {
 
  private:
   void Reset();
+  // Whether what the last query met shows that the bodies overlap where they are.
+  bool IsOverlapRecalled() const;
+  // Whether they do not, asked by membership.
+  bool IsSeparate();
   // What moves B's box off A's along an axis: always an answer.
   void PartBoxes();
   void Take(const Eigen::Vector3d& at, const std::optional<ContactName>& name);
