@@ -5,9 +5,11 @@
 #define TOUCHSTONE_CORE_CPD_BURIAL_INTERNAL_H_
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "touchstone/core/base/vector_lanes.h"
 #include "touchstone/core/cpd/contact_body.h"
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/minkowski/convolution.h"
@@ -61,12 +63,14 @@ class PrismList {
   int FindDeepest(const Eigen::Vector3d& x) const;
 
  private:
-  static constexpr int kWidth = 8, kWindow = 512;
+  static constexpr int kWidth = lanes::kWidth, kWindow = 512;
   struct alignas(64) Block {
     double normal[3][kPrismPlanes][kWidth];
     double offset[kPrismPlanes][kWidth];
   };
-  static void Margins(const Block& block, const Eigen::Vector3d& x, double margins[kWidth]);
+  // Per lane, the largest margin in any block, and its block's number.
+  static void LargestMargins(std::span<const Block> blocks, const Eigen::Vector3d& x,
+                             double margins[kWidth], std::int64_t numbers[kWidth]);
 
   std::vector<Prism> prisms_;
   std::vector<Block> blocks_;

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "touchstone/core/base/vector_clones.h"
+#include "touchstone/core/base/vector_lanes.h"
 #include "touchstone/core/minkowski/normal_cone_internal.h"
 
 namespace touchstone {
@@ -16,6 +16,11 @@ namespace {
 using Eigen::Vector3d;
 using internal::ConeRound;
 using internal::SineOf;
+using lanes::Flags;
+using lanes::Load;
+using lanes::LoadThree;
+using lanes::Reals;
+using lanes::Store;
 
 constexpr int kWidth = kFeatureTreeWidth;
 constexpr double kPadding = 1e-5;
@@ -175,16 +180,6 @@ void PlacedFeatureTree::Place(const FeatureTree& tree, const Eigen::Matrix3d& ro
   ++stamp_;
 }
 
-// Eight lanes in the compiler's own vectors, for left to itself it runs them one by one at -O2.
-using Reals = double __attribute__((vector_size(8 * kWidth)));
-using Flags = std::int64_t __attribute__((vector_size(8 * kWidth)));
-
-TOUCHSTONE_INLINE void Load(const double* from, Reals* to) { std::memcpy(to, from, sizeof *to); }
-TOUCHSTONE_INLINE void Store(const Reals& from, double* to) { std::memcpy(to, &from, sizeof from); }
-TOUCHSTONE_INLINE void LoadThree(const double (*from)[kWidth], Reals to[3]) {
-  for (int k = 0; k < 3; ++k) Load(from[k], &to[k]);
-}
-
 TOUCHSTONE_VECTOR_CLONES
 void PlacedFeatureTree::PlaceNode(int i) {
   const FeatureNode& from = tree_->nodes()[i];
@@ -247,7 +242,7 @@ TOUCHSTONE_INLINE std::uint64_t MeetingLanesOf(const FeatureNode& x, const Featu
   const Reals squared_sine = sine * sine;
   const Reals highest = lift + flat, lowest = lift - flat;
   const Flags x_is_narrow = ~(Flags)(cosine + 1.0);
-  const Flags lanes = {1, 2, 4, 8, 16, 32, 64, 128};
+  const Flags bits = {1, 2, 4, 8, 16, 32, 64, 128};
   Flags all = {};
   for (; lanes_of_y != 0; lanes_of_y &= lanes_of_y - 1) {
     const int j = std::countr_zero(lanes_of_y);
@@ -276,7 +271,7 @@ TOUCHSTONE_INLINE std::uint64_t MeetingLanesOf(const FeatureNode& x, const Featu
     const Flags is_above_y = ~(Flags)least_y & (Flags)(across_y - least_y * least_y);
     const Flags fails = is_far | is_parted | ((is_below_x | is_above_x) & x_is_narrow) |
                         ((is_below_y | is_above_y) & y_is_narrow);
-    all |= ~(fails >> 63) & (lanes << (8 * j));
+    all |= ~(fails >> 63) & (bits << (8 * j));
   }
   std::uint64_t masks = 0;
   for (int i = 0; i < kWidth; ++i) masks |= static_cast<std::uint64_t>(all[i]);
