@@ -16,7 +16,6 @@ namespace {
 constexpr double kListFrames = 8.0;  // steps of a motion that a list has room for
 constexpr double kListAngle = 0.06;  // beyond, lists would hold too much
 constexpr double kReach = 4.0;       // times the radius: what is further off is not even noted
-constexpr double kRoundDown = 1.0 - 0x1p-30;
 
 }  // namespace
 
@@ -93,12 +92,14 @@ void DepthSearcher::PlaceTrees(double distance, double angle) {
   s_.vertices_b.Place(b_.vertices(), rotation, translation, scale, distance, angle);
   s_.edges_b.Place(b_.convex_edges(), rotation, translation, scale, distance, angle);
   s_.hollows_b.Place(b_.hollow_vertices(), rotation, translation, scale, distance, angle);
+  s_.made.clear();
   BeginAtRoots(is_listing_ ? s_.list.limit : kReach * radius_);
-  made_ = 0.0;
 }
 
 void DepthSearcher::BeginAtRoots(double reach) {
   reach_ = reach;
+  made_before_ = s_.made.size();
+  std::sort(s_.made.begin(), s_.made.end());
   s_.later.clear();
   for (const SumKind kind :
        {SumKind::kFaceVertex, SumKind::kVertexFace, SumKind::kEdgeEdge, SumKind::kVertexVertex}) {
@@ -151,7 +152,15 @@ void DepthSearcher::ExpandWithinRadius() {
     s_.stack.pop_back();
     Expand(pair);
   }
-  made_ = kRoundDown * radius_;
+}
+
+bool DepthSearcher::WasMade(SumKind kind, int a, int b) {
+  const std::uint64_t key = static_cast<std::uint64_t>(kind) << 62 |
+                            static_cast<std::uint64_t>(a) << 31 | static_cast<std::uint64_t>(b);
+  const auto end = s_.made.begin() + static_cast<std::ptrdiff_t>(made_before_);
+  if (std::binary_search(s_.made.begin(), end, key)) return true;
+  s_.made.push_back(key);
+  return false;
 }
 
 void DepthSearcher::Expand(const NodePair& pair) {
@@ -185,7 +194,7 @@ void DepthSearcher::AddLanes(const NodePair& pair, const FeatureNode& a, int i,
                     FeatureLanes::Next(child_b, pair.b, j)});
   } else if (is_listing_) {
     ListItem(pair.kind, ~child_a, ~child_b);
-  } else if (!(near < made_)) {
+  } else if (!WasMade(pair.kind, ~child_a, ~child_b)) {
     AddItem(pair.kind, ~child_a, ~child_b);
   }
 }

@@ -68,6 +68,8 @@ class DepthSearcher {
   PlacedFeatureTree& TreeB(SumKind kind);
   // All pairs of features again, of which those within the reach are seen.
   void BeginAtRoots(double reach);
+  // Whether an item was added before that; it counts as added now.
+  bool WasMade(SumKind kind, int a, int b);
   // Makes all facets that may come within `radius_`, but for those made before; other pairs wait.
   void ExpandWithinRadius();
   void Expand(const NodePair& pair);
@@ -119,7 +121,8 @@ class DepthSearcher {
   MeshDepthResult& result_;
   DepthAnswer answer_;
   MembershipResult last_;
-  double radius_ = 0.0, reach_ = 0.0, made_ = 0.0;
+  double radius_ = 0.0, reach_ = 0.0;
+  std::size_t made_before_ = 0;  // of `made`: before it began at the roots again
   double open_ = std::numeric_limits<double>::infinity();
   bool found_ = false;
   bool is_listing_ = false;

@@ -230,6 +230,33 @@ TEST(MeshPenetrationDepth, EqualsTheWholeBoundary) {
   EXPECT_GT(kinds[static_cast<int>(NearestKind::kCrossingFoot)], 5);
 }
 
+// Answers so far off that the search goes beyond its first reach and begins at the roots again, as
+// where a box all but fills a dent. At the first of these poses a facet was once taken for made
+// that had been left out for its group's distance.
+TEST(MeshPenetrationDepth, NothingIsLostBeyondTheFirstReach) {
+  const Bodies bodies(NamedShape("dimpled", 50), NamedShape("spiked", 100));
+  Matrix3d turned;
+  turned << -0x1.ecd7047308a49p-2, 0x1.c0cca2adddb52p-1, -0x1.2b8a61f97cf35p-10,
+      0x1.c0ccb450b0d5bp-1, 0x1.ecd71ecb29fb9p-2, 0x1.4e8b36bbff681p-14, 0x1.44fcc57ad8c57p-11,
+      -0x1.f9014c66fe3e1p-11, -0x1.ffffe9fce3d35p-1;
+  const Vector3d t(-0x1.037326ba6a572p+0, -0x1.d1accedac81b9p+0, -0x1.ffe7b2b3e9ce3p+0);
+  testing::Random random(7);
+  int far = 0;
+  for (int i = 0; i < 12; ++i) {
+    const Vector3d tilt = 0.1 * random.Direction();
+    const Matrix3d by = Eigen::AngleAxisd(i == 0 ? 0.0 : tilt.norm(), tilt.normalized()).matrix();
+    const Vector3d off = i == 0 ? Vector3d(Vector3d::Zero()) : Vector3d(0.2 * random.Direction());
+    const MeshPair pair = bodies.At(PoseOf(by * turned, t + off));
+    const MeshDepthResult result = MeshPenetrationDepth(pair, bodies.a, bodies.b);
+    SCOPED_TRACE(i);
+    ExpectSound(pair, result);
+    EXPECT_NEAR(result.upper_bound, DepthByBoundary(pair), 1e-7);
+    const double width = pair.a().tree.high()[2] - pair.b().tree.low()[2];
+    far += result.upper_bound > 0.25 * width / pair.scale();
+  }
+  EXPECT_GT(far, 6);
+}
+
 TEST(MeshPenetrationDepth, ConvexPairsAsByTheConvexQuery) {
   testing::Random random(5);
   for (int i = 0; i < 10; ++i) {
