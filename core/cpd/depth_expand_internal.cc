@@ -17,6 +17,11 @@ constexpr double kListFrames = 8.0;  // steps of a motion that a list has room f
 constexpr double kListAngle = 0.06;  // beyond, lists would hold too much
 constexpr double kReach = 4.0;       // times the radius: what is further off is not even noted
 
+std::uint64_t ItemKey(SumKind kind, int a, int b) {
+  return static_cast<std::uint64_t>(kind) << 62 | static_cast<std::uint64_t>(a) << 31 |
+         static_cast<std::uint64_t>(b);
+}
+
 }  // namespace
 
 using Eigen::Vector2d;
@@ -154,13 +159,9 @@ void DepthSearcher::ExpandWithinRadius() {
   }
 }
 
-bool DepthSearcher::WasMade(SumKind kind, int a, int b) {
-  const std::uint64_t key = static_cast<std::uint64_t>(kind) << 62 |
-                            static_cast<std::uint64_t>(a) << 31 | static_cast<std::uint64_t>(b);
+bool DepthSearcher::WasMade(SumKind kind, int a, int b) const {
   const auto end = s_.made.begin() + static_cast<std::ptrdiff_t>(made_before_);
-  if (std::binary_search(s_.made.begin(), end, key)) return true;
-  s_.made.push_back(key);
-  return false;
+  return std::binary_search(s_.made.begin(), end, ItemKey(kind, a, b));
 }
 
 void DepthSearcher::Expand(const NodePair& pair) {
@@ -236,7 +237,10 @@ void DepthSearcher::AddFacet(const SumFacet& name) {
   const bool faces_away = facet.frame.is_oriented && facet.frame.height < -facet.frame.slack;
   if (faces_away || IsBuried(facet.frame, piece) || !Push(piece)) {
     s_.facets.pop_back();
+    return;
   }
+  // A facet's kinds are those of sums.
+  s_.made.push_back(ItemKey(static_cast<SumKind>(name.kind), name.a, name.b));
 }
 
 void DepthSearcher::AddVertex(const SumVertex& vertex) {
@@ -258,7 +262,11 @@ void DepthSearcher::AddVertex(const SumVertex& vertex) {
   piece.walls[0] = kNoWall;
   piece.distance = frame.height;
   ++result_.facets;
-  if (IsBuried(frame, piece) || !Push(piece)) s_.facets.pop_back();
+  if (IsBuried(frame, piece) || !Push(piece)) {
+    s_.facets.pop_back();
+    return;
+  }
+  s_.made.push_back(ItemKey(SumKind::kVertexVertex, vertex.a, vertex.b));
 }
 
 }  // namespace touchstone::internal

@@ -56,7 +56,7 @@ struct DepthScratch {
   PlacedFeatureTree faces_a, vertices_a, edges_a, hollows_a, faces_b, vertices_b, edges_b,
       hollows_b;
   std::vector<NodePair> stack, later;
-  std::vector<std::uint64_t> made;  // items added in this query
+  std::vector<std::uint64_t> made;  // items kept in this query
   std::vector<MetFacet> facets;
   std::vector<FacetPiece> pieces;
   std::vector<int> free_pieces;

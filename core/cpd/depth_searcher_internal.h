@@ -68,8 +68,8 @@ class DepthSearcher {
   PlacedFeatureTree& TreeB(SumKind kind);
   // All pairs of features again, of which those within the reach are seen.
   void BeginAtRoots(double reach);
-  // Whether an item was added before that; it counts as added now.
-  bool WasMade(SumKind kind, int a, int b);
+  // Whether an item was kept before that.
+  bool WasMade(SumKind kind, int a, int b) const;
   // Makes all facets that may come within `radius_`, but for those made before; other pairs wait.
   void ExpandWithinRadius();
   void Expand(const NodePair& pair);

@@ -11,9 +11,11 @@
 namespace touchstone::internal {
 namespace {
 
-// Measured on the paper's scenes: 3 to 8 looks and depths from 2^-12 to 2^-8 do as well.
+// Measured on the paper's scenes: 3 to 8 looks and depths and distances from 2^-12 to 2^-5 do as
+// well.
 constexpr int kMostLooks = 6;
 constexpr double kDeepEnough = 0x1p-11;  // of x in a prism that ends the walk
+constexpr double kNextTo = 0x1p-8;       // of x to a prism that the walk may go through first
 constexpr std::size_t kMostCorners = 32;
 
 // Calls visit(name) for what may be the next corner: from an edge and a face, the curve goes on
@@ -82,7 +84,7 @@ int DepthSearcher::WalkFrom(int number, const Vector3d& x, double least) {
     const Corner* corner = corners.Take();
     if (corner == nullptr) break;
     // Next to the start x may be on the wall of all that there is, just outside of what goes on.
-    const double outside = look == 0 ? kDeepEnough : 0.0;
+    const double outside = look == 0 ? kNextTo : 0.0;
     VisitNext(pair_, corner->name, [&](const PrismName& name) {
       if (corners.Has(name) || !MakePrism(pair_, a_, b_, name, &x, &next, outside)) return;
       const double margin = next.Margin(x);
