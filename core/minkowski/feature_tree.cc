@@ -220,8 +220,9 @@ void PlacedFeatureTree::PlaceNode(int i) {
 // Along a normal n in both cones the sum of two features is n.c + l higher than the origin, c being
 // the difference of the centres and l within the sum of `flat` of that of `lift`. Of the normals
 // within a cone, n.c is |c| cos(θ - α) at most and |c| cos(θ + α) at least, θ the angle between c
-// and the axis: c.axis cos α ± |c x axis| sin α. The origin is below no plane if the most is
-// negative; all planes pass further off than the limit if the least is above it.
+// and the axis: c.axis cos α ± |c x axis| sin α; unless c itself, or -c, is within the cone. The
+// origin is below no plane if the most is negative; all planes pass further off than the limit if
+// the least is above it.
 //
 // Lanes of X run in vectors, those of Y one after the other. X may be either body's: seen from B, c
 // and the cones turn to their negatives. What fails is told by sign bits, for comparisons of
@@ -265,10 +266,16 @@ TOUCHSTONE_INLINE std::uint64_t MeetingLanesOf(const FeatureNode& x, const Featu
     const Flags y_is_narrow = Flags{} - (y.cosine[j] < -1.0 ? 0 : 1);
     const Flags is_far = (Flags)(reach * reach - squared);
     const Flags is_parted = (Flags)(between - least) & x_is_narrow & y_is_narrow;
-    const Flags is_below_x = (Flags)most_x & (Flags)(across_x - most_x * most_x);
-    const Flags is_below_y = (Flags)most_y & (Flags)(across_y - most_y * most_y);
-    const Flags is_above_x = ~(Flags)least_x & (Flags)(across_x - least_x * least_x);
-    const Flags is_above_y = ~(Flags)least_y & (Flags)(across_y - least_y * least_y);
+    const Flags is_beside_x = (Flags)(of_x * of_x - squared * (cosine * cosine));
+    const Flags is_beside_y = (Flags)(of_y * of_y - squared * (y.cosine[j] * y.cosine[j]));
+    const Flags is_below_x =
+        (Flags)most_x & (Flags)(across_x - most_x * most_x) & (is_beside_x | (Flags)of_x);
+    const Flags is_below_y =
+        (Flags)most_y & (Flags)(across_y - most_y * most_y) & (is_beside_y | (Flags)of_y);
+    const Flags is_above_x =
+        ~(Flags)least_x & (Flags)(across_x - least_x * least_x) & (is_beside_x | ~(Flags)of_x);
+    const Flags is_above_y =
+        ~(Flags)least_y & (Flags)(across_y - least_y * least_y) & (is_beside_y | ~(Flags)of_y);
     const Flags fails = is_far | is_parted | ((is_below_x | is_above_x) & x_is_narrow) |
                         ((is_below_y | is_above_y) & y_is_narrow);
     all |= ~(fails >> 63) & (bits << (8 * j));
@@ -308,8 +315,10 @@ double NearestSum(const FeatureNode& a, int i, const FeatureNode& b, int j) {
     if (node.cosine[lane] < -1.0) return;
     const double along =
         sign * (c[0] * node.axis[0][lane] + c[1] * node.axis[1][lane] + c[2] * node.axis[2][lane]);
+    const double cosine = node.cosine[lane];
+    if (along < 0.0 && along * along >= squared * cosine * cosine) return;
     const double across = std::sqrt(std::max(0.0, squared - along * along));
-    near = std::max(near, along * node.cosine[lane] - across * node.sine[lane] + lowest);
+    near = std::max(near, along * cosine - across * node.sine[lane] + lowest);
   };
   least_height(a, i, 1.0);
   least_height(b, j, -1.0);
