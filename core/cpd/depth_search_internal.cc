@@ -67,11 +67,12 @@ void DepthSearcher::PartBoxes() {
   const Vector3d low_a = pair_.a().tree.low(), high_a = pair_.a().tree.high(),
                  low_b = pair_.b().tree.low(), high_b = pair_.b().tree.high();
   for (int axis = 0; axis < 3; ++axis) {
-    for (const double step : {high_a[axis] - low_b[axis], low_a[axis] - high_b[axis]}) {
-      const double length = std::abs(step) + 0x1p-46;
-      if (length * kRoundUp < answer_.upper) {
-        Take(std::copysign(length, step) * Vector3d::Unit(axis), std::nullopt);
-      }
+    for (const double way : {1.0, -1.0}) {
+      const double step = way > 0.0 ? high_a[axis] - low_b[axis] : high_b[axis] - low_a[axis];
+      // Boxes of bodies that barely overlap may be apart by their rounding.
+      const double length = std::max(0.0, step) + 0x1p-46;
+      if (length * kRoundUp < answer_.upper)
+        Take(way * length * Vector3d::Unit(axis), std::nullopt);
     }
   }
 }

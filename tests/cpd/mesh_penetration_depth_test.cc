@@ -257,6 +257,19 @@ TEST(MeshPenetrationDepth, NothingIsLostBeyondTheFirstReach) {
   EXPECT_GT(far, 6);
 }
 
+// The bodies overlap by less than their boxes are rounded by, which seem to be apart.
+TEST(MeshPenetrationDepth, BoxesApartByTheirRounding) {
+  const Bodies bodies(NamedShape("spiked", 50), NamedShape("fish", 200));
+  Matrix3d turned;
+  turned << -1, 0, 0, 0, 0, 1, 0, 1, 0;
+  const Vector3d t(0x1.3333333333333p+0, -0x1.7333333333333p+1, -0.25);
+  const MeshPair pair = bodies.At(PoseOf(turned, t));
+  const MeshDepthResult result = MeshPenetrationDepth(pair, bodies.a, bodies.b);
+  ASSERT_NE(result.status, MeshDepthStatus::kSeparate);
+  EXPECT_LT(result.upper_bound, 1e-11);
+  ExpectSound(pair, result);
+}
+
 TEST(MeshPenetrationDepth, ConvexPairsAsByTheConvexQuery) {
   testing::Random random(5);
   for (int i = 0; i < 10; ++i) {
