@@ -206,7 +206,7 @@ void MeshDepthCache::Clear() {
   scratch_->list.b.reset();
   scratch_->prism_names.clear();
   scratch_->ball_faces.clear();
-  scratch_->membership.witness = {-1, -1};
+  scratch_->membership.crossing = {};
 }
 
 MeshDepthResult MeshPenetrationDepth(const MeshPair& pair, const ContactBody& a,

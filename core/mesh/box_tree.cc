@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -62,29 +63,100 @@ BoxNode LaneAlone(const BoxNode& node, int lane) {
     alone.children[to] = node.children[lane];
   }
   alone.lane_count = 1;
+  alone.whole = {{node.low[0][lane], node.low[1][lane], node.low[2][lane]},
+                 {node.high[0][lane], node.high[1][lane], node.high[2][lane]}};
   return alone;
 }
 
 }  // namespace
 
-// Eight lanes of comparisons without a branch: one or two vector instructions each.
+// Lanes of B run in vectors, those of A one after the other. In the compiler's own vectors, for
+// left to itself it gathers the masks lane by lane; and what misses is told by the sign bits of
+// differences, for with comparisons of such vectors it does so in clones.
+using Reals = double __attribute__((vector_size(8 * kTreeWidth), may_alias));
+using Flags = std::uint64_t __attribute__((vector_size(8 * kTreeWidth)));
+using Bytes = std::uint8_t __attribute__((vector_size(kTreeWidth)));
+
+namespace {
+
+struct Lanes {
+  Reals low_x, low_y, low_z, high_x, high_y, high_z;
+};
+
+// The node's boxes, moved and grown. (Axis by axis: of loops GCC 12 keeps the vectors in memory.)
+TOUCHSTONE_INLINE void Move(const BoxNode& node, const Vector3d& offset, double margin,
+                            Lanes* moved) {
+  const auto* low = reinterpret_cast<const Reals*>(node.low);
+  const auto* high = reinterpret_cast<const Reals*>(node.high);
+  moved->low_x = low[0] + offset[0] - margin;
+  moved->low_y = low[1] + offset[1] - margin;
+  moved->low_z = low[2] + offset[2] - margin;
+  moved->high_x = high[0] + offset[0] + margin;
+  moved->high_y = high[1] + offset[1] + margin;
+  moved->high_z = high[2] + offset[2] + margin;
+}
+
+// Bit 63 of each lane: whether it misses the box. (A vector is not returned: how it would be
+// depends on the clone.)
+TOUCHSTONE_INLINE void FindMisses(const Lanes& lanes, const double low[3], const double high[3],
+                                  Flags* misses) {
+  *misses = (Flags)(lanes.high_x - low[0]) | (Flags)(high[0] - lanes.low_x) |
+            (Flags)(lanes.high_y - low[1]) | (Flags)(high[1] - lanes.low_y) |
+            (Flags)(lanes.high_z - low[2]) | (Flags)(high[2] - lanes.low_z);
+}
+
+// Bit j: whether lane j of the node, where it is, meets the box.
+TOUCHSTONE_INLINE std::uint64_t MeetingMask(const double low[3], const double high[3],
+                                            const BoxNode& node) {
+  const auto* lows = reinterpret_cast<const Reals*>(node.low);
+  const auto* highs = reinterpret_cast<const Reals*>(node.high);
+  const Lanes lanes = {lows[0], lows[1], lows[2], highs[0], highs[1], highs[2]};
+  Flags misses;
+  FindMisses(lanes, low, high, &misses);
+  const Flags bits = {1, 2, 4, 8, 16, 32, 64, 128};
+  const Flags meeting = ((misses >> 63) - 1) & bits;
+  std::uint64_t mask = 0;
+  for (int j = 0; j < kTreeWidth; ++j) mask |= meeting[j];
+  return mask & ((std::uint64_t{1} << node.lane_count) - 1);
+}
+
+}  // namespace
+
 TOUCHSTONE_VECTOR_CLONES
 void MeetingLanes(const BoxNode& a, const BoxNode& b, const Vector3d& offset, double margin,
                   std::uint8_t masks[kTreeWidth]) {
-  for (int j = 0; j < kTreeWidth; ++j) {
-    std::int64_t meets[kTreeWidth];
-    for (int i = 0; i < kTreeWidth; ++i) meets[i] = std::int64_t{1} << i;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double low = b.low[axis][j] + offset[axis] - margin;
-      const double high = b.high[axis][j] + offset[axis] + margin;
-      for (int i = 0; i < kTreeWidth; ++i) {
-        meets[i] = ((a.low[axis][i] <= high) & (a.high[axis][i] >= low)) ? meets[i] : 0;
-      }
-    }
-    std::int64_t mask = 0;
-    for (int i = 0; i < kTreeWidth; ++i) mask |= meets[i];
-    masks[j] = static_cast<std::uint8_t>(mask);
+  // Lanes of A that meet B as a whole.
+  const Box3& whole = b.whole;
+  const double whole_low[3] = {whole.low[0] + offset[0] - margin, whole.low[1] + offset[1] - margin,
+                               whole.low[2] + offset[2] - margin};
+  const double whole_high[3] = {whole.high[0] + offset[0] + margin,
+                                whole.high[1] + offset[1] + margin,
+                                whole.high[2] + offset[2] + margin};
+  Lanes lanes;
+  Move(b, offset, margin, &lanes);
+  Flags meeting = {};
+  for (std::uint64_t of_a = MeetingMask(whole_low, whole_high, a); of_a != 0; of_a &= of_a - 1) {
+    const int i = std::countr_zero(of_a);
+    const double low[3] = {a.low[0][i], a.low[1][i], a.low[2][i]};
+    const double high[3] = {a.high[0][i], a.high[1][i], a.high[2][i]};
+    Flags misses;
+    FindMisses(lanes, low, high, &misses);
+    meeting |= ((misses >> 63) - 1) & (std::uint64_t{1} << i);
   }
+  const Bytes bytes = __builtin_convertvector(meeting, Bytes);
+  std::memcpy(masks, &bytes, sizeof bytes);
+  for (int j = b.lane_count; j < kTreeWidth; ++j) masks[j] = 0;
+}
+
+TOUCHSTONE_VECTOR_CLONES
+std::uint8_t MeetingLanes(const Box3& box, const BoxNode& node, const Vector3d& offset,
+                          double margin) {
+  // Seen from where the node is.
+  const double low[3] = {box.low[0] - offset[0] - margin, box.low[1] - offset[1] - margin,
+                         box.low[2] - offset[2] - margin};
+  const double high[3] = {box.high[0] - offset[0] + margin, box.high[1] - offset[1] + margin,
+                          box.high[2] - offset[2] + margin};
+  return static_cast<std::uint8_t>(MeetingMask(low, high, node));
 }
 
 BoxTree::BoxTree(std::span<const Vector3d> points, std::span<const Triangle> faces) {
@@ -131,25 +203,21 @@ void BoxTree::Fit(std::span<const Vector3d> points, std::span<const Triangle> fa
 
 template <class BoxOf>
 void BoxTree::FitBoxes(const BoxOf& box_of) {
-  const auto box_of_node = [](const BoxNode& node) {
-    Box3 box;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = *std::min_element(node.low[axis], node.low[axis] + node.lane_count);
-      box.high[axis] = *std::max_element(node.high[axis], node.high[axis] + node.lane_count);
-    }
-    return box;
-  };
   for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
     for (int lane = 0; lane < node->lane_count; ++lane) {
       const int child = node->children[lane];
-      const Box3 box = child < 0 ? box_of(~child) : box_of_node(nodes_[child]);
+      const Box3 box = child < 0 ? box_of(~child) : nodes_[child].whole;
       for (int axis = 0; axis < 3; ++axis) {
         node->low[axis][lane] = box.low[axis];
         node->high[axis][lane] = box.high[axis];
       }
     }
+    for (int axis = 0; axis < 3; ++axis) {
+      node->whole.low[axis] = *std::min_element(node->low[axis], node->low[axis] + kTreeWidth);
+      node->whole.high[axis] = *std::max_element(node->high[axis], node->high[axis] + kTreeWidth);
+    }
   }
-  all_ = box_of_node(nodes_[0]);
+  all_ = nodes_[0].whole;
 }
 
 void BoxTree::MeetingItems(std::vector<std::pair<int, int>>* pairs) const {

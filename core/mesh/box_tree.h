@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,18 +22,24 @@ struct Box3 {
 inline constexpr int kTreeWidth = 8;
 
 // Eight boxes, their coordinates in lanes. Lane l holds a box round node children[l], or that of
-// the single item ~children[l]. Unused lanes come last and hold boxes that nothing meets.
+// the single item ~children[l]. Unused lanes come last and hold boxes that nothing meets. `whole`
+// holds all lanes; unless it is set, all of space.
 struct alignas(64) BoxNode {
   double low[3][kTreeWidth];
   double high[3][kTreeWidth];
   std::int32_t children[kTreeWidth];
   int lane_count;
+  Box3 whole = {Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity()),
+                Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity())};
 };
 
 // Which lanes of one node meet which of the other, moved by `offset`: bit i of masks[j] for lane i
 // of `a` and lane j of `b`. Boxes that come within `margin` of each other along every axis count.
 void MeetingLanes(const BoxNode& a, const BoxNode& b, const Eigen::Vector3d& offset, double margin,
                   std::uint8_t masks[kTreeWidth]);
+// Which lanes of the node, moved by `offset`, meet the box.
+std::uint8_t MeetingLanes(const Box3& box, const BoxNode& node, const Eigen::Vector3d& offset,
+                          double margin);
 
 // A tree of boxes, over the faces of a mesh or other items. Its shape is made once; the boxes may
 // be fitted again wherever the items are placed.

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
+#include <cstring>
 #include <optional>
+#include <tuple>
 
 #include "touchstone/core/mesh/point_in_mesh_internal.h"
 #include "touchstone/core/mesh/triangle_contact_internal.h"
@@ -14,6 +17,16 @@ namespace {
 
 using internal::ExactContact;
 using internal::Triage;
+
+std::pair<int, int> FacesOf(const Crossing& crossing) {
+  const int of_edge = TriangleMesh::face_of(crossing.half_edge);
+  return crossing.edge_is_of_a ? std::pair(of_edge, crossing.face)
+                               : std::pair(crossing.face, of_edge);
+}
+
+// Nodes compared from the first on where the children that share most are followed first: what
+// crosses is found early by that, if anything does.
+constexpr int kOrdered = 16;
 
 class Query {
  public:
@@ -28,7 +41,7 @@ class Query {
 
   MembershipResult Run() {
     cache_.unsure.clear();
-    if (WitnessCrosses() || SurfacesCross()) return Decide(Verdict::kOverlap, Tier::kBound);
+    if (RememberedCross() || SurfacesCross()) return Decide(Verdict::kOverlap, Tier::kBound);
     FindTouched(!contacts_.empty());
     for (const auto& [face_a, face_b] : contacts_) MarkTouched(face_a, face_b);
     if (cache_.unsure.empty()) {
@@ -48,22 +61,37 @@ class Query {
 
   Triage Compare(int face_a, int face_b) {
     ++result_.triangle_tests;
-    const Triage triage = internal::TriageTriangles(pair_, face_a, face_b, offset_);
+    const Triage triage =
+        internal::TriageTriangles(pair_, face_a, face_b, offset_, &cache_.crossing);
     if (triage == Triage::kCross) {
       result_.face_a = face_a;
       result_.face_b = face_b;
-      cache_.witness = {face_a, face_b};
     }
     return triage;
   }
 
-  bool WitnessCrosses() {
-    const auto [face_a, face_b] = cache_.witness;
-    if (face_a < 0 || face_a >= pair_.a().mesh.face_count() || face_b < 0 ||
-        face_b >= pair_.b().mesh.face_count()) {
+  // The edge and the face that crossed last time, then all of their two faces.
+  bool RememberedCross() {
+    const Crossing crossing = cache_.crossing;
+    const TriangleMesh &a = pair_.a().mesh, &b = pair_.b().mesh;
+    const TriangleMesh& of_edge = crossing.edge_is_of_a ? a : b;
+    const TriangleMesh& of_face = crossing.edge_is_of_a ? b : a;
+    if (crossing.half_edge < 0 || crossing.half_edge >= of_edge.half_edge_count() ||
+        crossing.face < 0 || crossing.face >= of_face.face_count()) {
       return false;
     }
+    const auto [face_a, face_b] = FacesOf(crossing);
+    if (!IsPrismOf(crossing) && cache_.prism.Make(pair_, crossing) &&
+        cache_.prism.Holds(pair_, x_)) {
+      result_.face_a = face_a;
+      result_.face_b = face_b;
+      return true;
+    }
     return Compare(face_a, face_b) == Triage::kCross;
+  }
+
+  bool IsPrismOf(const Crossing& crossing) const {
+    return cache_.prism.crossing() == crossing && cache_.prism.IsOf(pair_);
   }
 
   // Compares the trees from the roots down. A child that is a face is paired with the nodes of
@@ -81,28 +109,63 @@ class Query {
 
   bool CompareNodes(int a, int b) {
     ++result_.box_tests;
-    BoxNode single;
-    if (a < 0 || b < 0) single = a < 0 ? SingleFace(pair_.a(), ~a) : SingleFace(pair_.b(), ~b);
-    const BoxNode& node_a = a >= 0 ? pair_.a().tree.node(a) : single;
-    const BoxNode& node_b = b >= 0 ? pair_.b().tree.node(b) : single;
+    if (a < 0) return CompareFaceOfA(~a, pair_.b().tree.node(b));
+    if (b < 0) return CompareFaceOfB(pair_.a().tree.node(a), ~b);
+    const BoxNode &node_a = pair_.a().tree.node(a), &node_b = pair_.b().tree.node(b);
     std::uint8_t masks[kTreeWidth];
     MeetingLanes(node_a, node_b, offset_.value, offset_.error, masks);
-    for (int j = 0; j < node_b.lane_count; ++j) {
-      for (unsigned mask = masks[j]; mask != 0; mask &= mask - 1) {
-        const int child_a = node_a.children[std::countr_zero(mask)];
-        const int child_b = node_b.children[j];
-        if (child_a >= 0 || child_b >= 0) {
-          cache_.stack.emplace_back(child_a, child_b);
-          continue;
-        }
-        const Triage triage = Compare(~child_a, ~child_b);
-        if (triage == Triage::kCross) return true;
-        if (triage == Triage::kUnsure && !IsContact(~child_a, ~child_b)) {
-          cache_.unsure.emplace_back(~child_a, ~child_b);
-        }
-      }
+    std::uint64_t hits;  // bit 8 j + i: lanes i of A and j of B
+    std::memcpy(&hits, masks, sizeof hits);
+    const bool in_order = result_.box_tests <= kOrdered;
+    double most = -1.0;
+    std::size_t best = 0;
+    for (; hits != 0; hits &= hits - 1) {
+      const int bit = std::countr_zero(hits), i = bit % kTreeWidth, j = bit / kTreeWidth;
+      const int child_a = node_a.children[i], child_b = node_b.children[j];
+      if (CompareChildren(child_a, child_b)) return true;
+      if (!in_order || (child_a < 0 && child_b < 0)) continue;
+      const double shared = SharedVolume(node_a, i, node_b, j);
+      if (shared > most) most = shared, best = cache_.stack.size() - 1;
+    }
+    if (most >= 0.0) std::swap(cache_.stack[best], cache_.stack.back());
+    return false;
+  }
+
+  double SharedVolume(const BoxNode& node_a, int i, const BoxNode& node_b, int j) const {
+    double volume = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double move = offset_.value[axis];
+      volume *= std::min(node_a.high[axis][i], node_b.high[axis][j] + move) -
+                std::max(node_a.low[axis][i], node_b.low[axis][j] + move);
+    }
+    return std::abs(volume);
+  }
+
+  bool CompareFaceOfA(int face, const BoxNode& node_b) {
+    for (unsigned hits = MeetingLanes(BoxOf(pair_.a(), face), node_b, offset_.value, offset_.error);
+         hits != 0; hits &= hits - 1) {
+      if (CompareChildren(~face, node_b.children[std::countr_zero(hits)])) return true;
     }
     return false;
+  }
+
+  bool CompareFaceOfB(const BoxNode& node_a, int face) {
+    for (unsigned hits =
+             MeetingLanes(BoxOf(pair_.b(), face), node_a, -offset_.value, offset_.error);
+         hits != 0; hits &= hits - 1) {
+      if (CompareChildren(node_a.children[std::countr_zero(hits)], ~face)) return true;
+    }
+    return false;
+  }
+
+  bool CompareChildren(int a, int b) {
+    if (a >= 0 || b >= 0) {
+      cache_.stack.emplace_back(a, b);
+      return false;
+    }
+    const Triage triage = Compare(~a, ~b);
+    if (triage == Triage::kUnsure && !IsContact(~a, ~b)) cache_.unsure.emplace_back(~a, ~b);
+    return triage == Triage::kCross;
   }
 
   bool IsContact(int face_a, int face_b) const {
@@ -110,25 +173,11 @@ class Query {
            contacts_.end();
   }
 
-  // A face as a node of one lane.
-  static BoxNode SingleFace(const PlacedMesh& mesh, int face) {
-    BoxNode node;
-    for (int lane = 0; lane < kTreeWidth; ++lane) {
-      for (int axis = 0; axis < 3; ++axis) {
-        node.low[axis][lane] = 1e300;
-        node.high[axis][lane] = -1e300;
-      }
-      node.children[lane] = ~face;
-    }
+  static Box3 BoxOf(const PlacedMesh& mesh, int face) {
     const Triangle& corners = mesh.mesh.face(face);
     const auto &a = mesh.points[corners[0]], &b = mesh.points[corners[1]],
                &c = mesh.points[corners[2]];
-    for (int axis = 0; axis < 3; ++axis) {
-      node.low[axis][0] = std::min({a[axis], b[axis], c[axis]});
-      node.high[axis][0] = std::max({a[axis], b[axis], c[axis]});
-    }
-    node.lane_count = 1;
-    return node;
+    return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
   }
 
   MembershipResult DecideUnsureInDoubles() {
@@ -229,13 +278,26 @@ class Query {
   MembershipResult result_;
 };
 
+MembershipResult Search(const MeshPair& pair, const Translation& x,
+                        const MembershipOptions& options, MembershipCache* cache) {
+  MembershipCache own;
+  return Query(pair, x, options, cache != nullptr ? cache : &own).Run();
+}
+
 }  // namespace
 
 MembershipResult Membership(const MeshPair& pair, const Translation& x,
                             const MembershipOptions& options, MembershipCache* cache) {
   assert(x.value.allFinite());
-  MembershipCache own;
-  return Query(pair, x, options, cache != nullptr ? cache : &own).Run();
+  if (cache == nullptr || !(cache->prism.crossing() == cache->crossing) ||
+      !cache->prism.IsOf(pair) || !cache->prism.Holds(pair, x)) {
+    return Search(pair, x, options, cache);
+  }
+  MembershipResult result;
+  result.verdict = Verdict::kOverlap;
+  result.tier = Tier::kBound;
+  std::tie(result.face_a, result.face_b) = FacesOf(cache->crossing);
+  return result;
 }
 
 void Membership(const MeshPair& pair, std::span<const Eigen::Vector3d> translations,

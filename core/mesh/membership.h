@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "touchstone/core/base/verdict.h"
+#include "touchstone/core/mesh/crossing_prism.h"
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/mesh/translation.h"
 
@@ -30,7 +31,7 @@ struct MembershipResult {
   // Two faces that cross or touch, where that settled the verdict; -1 if containment did, or the
   // bodies are separate.
   int face_a = -1, face_b = -1;
-  int box_tests = 0;       // pairs of nodes
+  int box_tests = 0;  // pairs of nodes; where the cache's prism answers, this and all below are 0
   int triangle_tests = 0;  // pairs of triangles in doubles
   int exact_tests = 0;     // pairs of triangles with big numbers
 };
@@ -38,7 +39,8 @@ struct MembershipResult {
 // Owned by the caller; speeds up questions about nearby translations and makes a warm query free of
 // allocations. Answers do not depend on it. One per thread; any pair.
 struct MembershipCache {
-  std::pair<int, int> witness{-1, -1};             // faces that crossed last time
+  Crossing crossing;                               // an edge and a face that crossed last time
+  CrossingPrism prism;                             // of these, once they were asked about again
   std::vector<std::pair<int, int>> stack;          // nodes to compare
   std::vector<std::pair<int, int>> unsure;         // faces that doubles left open
   std::vector<std::uint8_t> touched_a, touched_b;  // components that the other surface meets

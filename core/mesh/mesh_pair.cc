@@ -88,6 +88,8 @@ void MeshPair::FindPlanes(PlacedMesh* placed) const {
     FacePlane& plane = placed->planes[f];
     plane.vertex = face[k];
     plane.normal = v.cross(u);
+    plane.height = plane.normal.dot(placed->points[plane.vertex]);
+    plane.length = plane.normal.cwiseAbs().sum();
     // A coordinate is u_i v_j - u_j v_i: two roundings on each path, 2.01 units of the absolute
     // terms, at most 2 |u||v|; errors of u and v add 2 (|u| e_v + |v| e_u + e_u e_v).
     plane.error =

@@ -39,6 +39,8 @@ struct FacePlane {
   int vertex;
   double error;
   Eigen::Vector3d normal;
+  double height;  // normal . vertex, as rounded
+  double length;  // the sum of the normal's coordinates, each taken positive
 };
 
 // One mesh of a pair, placed in A's frame and scaled.

@@ -9,6 +9,7 @@
 
 #include "touchstone/core/base/orientation.h"
 #include "touchstone/core/base/verdict.h"
+#include "touchstone/core/mesh/crossing_prism.h"
 #include "touchstone/core/mesh/link.h"
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/mesh/translation.h"
@@ -21,6 +22,9 @@ namespace touchstone::internal {
 struct Offset {
   Eigen::Vector3d value;
   double error;
+  // What bounds the error of a height above a plane, formed in parts: times the plane's length, and
+  // times its normal's error.
+  double for_length, for_error;
 };
 Offset MakeOffset(const MeshPair& pair, const Translation& x);
 
@@ -30,7 +34,9 @@ enum class Triage {
   kCross,  // an edge of one passes through the other, each strictly within: there solids overlap
   kUnsure,
 };
-Triage TriageTriangles(const MeshPair& pair, int face_a, int face_b, const Offset& offset);
+// Where they cross, `crossing` is set.
+Triage TriageTriangles(const MeshPair& pair, int face_a, int face_b, const Offset& offset,
+                       Crossing* crossing);
 
 // Where surfaces meet, exactly, and whether solids overlap there.
 //

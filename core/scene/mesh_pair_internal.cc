@@ -27,7 +27,7 @@ MembershipResult AskMembership(const PlacedPart& p, const PlacedPart& q, const R
   ++counters->queries;
   ++counters->meshes_placed;
   PlaceAt(p, q, pose, state);
-  if (!warm) state->cache.witness = {-1, -1};
+  if (!warm) state->cache.crossing = {};
   const MembershipResult result =
       Membership(*state->pair, Eigen::Vector3d(Eigen::Vector3d::Zero()), {}, &state->cache);
   if (result.tier == Tier::kExact) ++counters->exact_queries;

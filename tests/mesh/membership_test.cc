@@ -253,7 +253,7 @@ TEST(Membership, CacheAndBatchChangeNoAnswer) {
   for (int i = 0; i < 500; ++i) xs.push_back(random.Uniform(0, 5) * random.Direction());
   std::vector<MembershipResult> results(xs.size());
   MembershipCache cache;
-  cache.witness = {1 << 20, 3};  // left by a larger pair
+  cache.crossing = {true, 1 << 20, 3};  // left by a larger pair
   Membership(pair, xs, results, {}, &cache);
   int overlaps = 0;
   for (std::size_t i = 0; i < xs.size(); ++i) {

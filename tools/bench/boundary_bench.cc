@@ -205,7 +205,7 @@ MembershipRow TimePair(const std::string& name, const TriangleMesh& a, const Tri
       for (int i = 0; i < 3; ++i) {
         x[i] = scale * random.Uniform(low[i] - high_b[i], high[i] - low_b[i]);
       }
-      cache.witness = {-1, -1};
+      cache.crossing = {};
       const auto begin = std::chrono::steady_clock::now();
       const MembershipResult result = Membership(pair, x, {Certainty::kFloat}, &cache);
       const std::chrono::duration<double, std::micro> time =

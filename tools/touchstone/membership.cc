@@ -45,7 +45,7 @@ int RunMembership(const Arguments& arguments) {
   const MeshPair pair(a, b, pose);
   MembershipCache cache;
   Membership(pair, x, options, &cache);  // warms the memory; then cold but for that
-  cache.witness = {-1, -1};
+  cache.crossing = {};
   const auto begin = std::chrono::steady_clock::now();
   const MembershipResult result = Membership(pair, x, options, &cache);
   const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
