@@ -42,6 +42,10 @@ std::optional<PhongPatch> ContinuousPenetrationDepth::patch() const {
   return implementation_->patch();
 }
 
+std::optional<Eigen::Matrix3d> ContinuousPenetrationDepth::RateOfTurn() {
+  return implementation_->RateOfTurn();
+}
+
 void ContinuousPenetrationDepth::Forget() { implementation_->Forget(); }
 
 const LocalSum& ContinuousPenetrationDepth::local_sum() const {

@@ -22,6 +22,9 @@ constexpr double kBallPart = 0.125;
 constexpr double kLeastBall = 1e-4;
 // Off the surface, over the size: far above the roundings of membership, as for the depth.
 constexpr double kStep = 0x1p-40;
+// Radians to either side for differences: solutions are good to some 1e-14 of the size, which this
+// makes 1e-8; what is left out is its square times third derivatives, large near a fold only.
+constexpr double kTurn = 0x1p-18;
 
 }  // namespace
 
@@ -97,6 +100,47 @@ std::optional<PhongPatch> ContinuousSolver::patch() const {
     }
   }
   return patch;
+}
+
+std::optional<Vector3d> ContinuousSolver::OnPatchAt(const RelativePose& pose) {
+  pair_.Place(pose);
+  if (!turned_patch_.Place(pair_, a_, b_, *last_->patch)) return std::nullopt;
+  PhongOptions phong;
+  phong.interpolation = options_.interpolation;
+  phong.begin_at = last_->at;
+  points_.clear();
+  ProjectOntoTriangle(turned_patch_.Surface(pair_, *last_->patch, options_.weights), 0, phong,
+                      &points_);
+  std::optional<Vector3d> nearest;
+  for (const PhongPoint& point : points_) {
+    const Vector3d &q = point.position, &last = last_->translation;
+    if (!nearest || (q - last).norm() < (*nearest - last).norm()) nearest = q;
+  }
+  return nearest;
+}
+
+std::optional<Matrix3d> ContinuousSolver::RateOfTurn() {
+  if (result_.status != ContinuousDepthStatus::kFound || !result_.rate_of_translation || !last_ ||
+      last_->patch == nullptr) {
+    return std::nullopt;
+  }
+  std::optional<Matrix3d> rate = Matrix3d(Matrix3d::Zero());
+  for (int k = 0; k < 3 && rate; ++k) {
+    const auto at = [&](double angle) -> std::optional<Vector3d> {
+      const Matrix3d turn = Eigen::AngleAxisd(angle, Vector3d::Unit(k)).toRotationMatrix();
+      const auto pose = RelativePose::Make(turn * pose_.rotation(), pose_.translation());
+      if (!pose.ok()) return std::nullopt;
+      return OnPatchAt(*pose);
+    };
+    const auto before = at(-kTurn), after = at(kTurn);
+    if (before && after) {
+      rate->col(k) = (*after - *before) / (2.0 * kTurn);
+    } else {
+      rate.reset();
+    }
+  }
+  pair_.Place(pose_);
+  return rate;
 }
 
 bool ContinuousSolver::Begin() {

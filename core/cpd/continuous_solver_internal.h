@@ -42,6 +42,7 @@ class ContinuousSolver {
   const std::optional<ContinuousDepthState>& state() const { return last_; }
   void set_state(const std::optional<ContinuousDepthState>& state);
   std::optional<PhongPatch> patch() const;
+  std::optional<Eigen::Matrix3d> RateOfTurn();
 
  private:
   // Line 2 to 6: where to begin. False if there is no overlap.
@@ -50,6 +51,9 @@ class ContinuousSolver {
   bool FollowPatch();
   // Whether there is no overlap a step off the surface: it is not buried.
   bool IsOutside(const PhongPoint& point, const Eigen::Vector3d& normal);
+
+  // The solution that the last one is at another pose, on its triangles as they are named.
+  std::optional<Eigen::Vector3d> OnPatchAt(const RelativePose& pose);
 
   void Search();
   void MakeLocalSum();
@@ -84,6 +88,7 @@ class ContinuousSolver {
   MeshDepthCache depth_cache_;
   MembershipCache membership_cache_, surface_membership_cache_;
   KeptPatch patch_;
+  KeptPatch turned_patch_;  // for rates
   RelativePose pose_;
   ContinuousDepthResult result_;
   std::optional<ContinuousDepthState> last_;

@@ -23,9 +23,7 @@ bool KeptPatch::Follow(const MeshPair& pair, const ContactBody& a, const Contact
                        const PatchShape& shape) {
   if (last_pose_) step_ = MotionOfB(pair, *last_pose_);
   last_pose_ = pair.pose();
-  if (!PlaceFacets(pair, a, b, shape) || !PlacePoints(pair, shape) || !HasWalls(shape)) {
-    return false;
-  }
+  if (!Place(pair, a, b, shape) || !HasWalls(shape)) return false;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!IsOnNamed(shape.names[i], points_[i])) return false;
   }

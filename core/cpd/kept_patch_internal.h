@@ -55,6 +55,12 @@ class KeptPatch {
   bool Follow(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
               const PatchShape& shape);
 
+  // Places it by its names alone; whether all its facets support there and its points exist.
+  bool Place(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
+             const PatchShape& shape) {
+    return PlaceFacets(pair, a, b, shape) && PlacePoints(pair, shape);
+  }
+
   // As placed, in true lengths. Triangle 0 has the normals of ∂M at its corners, whatever the
   // weights.
   PhongSurface Surface(const MeshPair& pair, const PatchShape& shape, NormalWeights weights);

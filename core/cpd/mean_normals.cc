@@ -65,20 +65,27 @@ class MeanWalk {
 
   MeanProjection Run(const Vector3d& from) {
     MeanProjection best;
-    best.point.residual = std::numeric_limits<double>::infinity();
     if (!PutBack(from)) return best;
+    best.point = PointHere(1.0);
     double limit = kLongestStep;
+    bool was_sent_back = false;
     Vector3d before = Vector3d::Zero();
     for (int i = 0; i < options_.step_limit; ++i) {
       Normal here;
       if (!NormalAt(at_, &here)) return Left(at_);
       const double residual = Sine(at_, here.n);
-      if (residual < best.point.residual) best.point = PointHere(residual);
+      const bool faces_out = NormalOf(triangle_).dot(at_) > 0.0;
+      if (faces_out && residual < best.point.residual) best.point = PointHere(residual);
       const Axes axes = AxesOf(triangle_);
       Matrix2d jacobian;
       if (!Jacobian(axes, here, &jacobian)) return Left(at_);
       const double trace = jacobian.trace();
       const bool is_stable = trace > 0.0 && jacobian.determinant() > kFolding * trace * trace;
+      if (residual < kConverged && is_stable && !faces_out) {
+        if (was_sent_back || !SendBack()) return best;
+        was_sent_back = true;
+        continue;
+      }
       if (residual < kConverged && is_stable) {
         best.status = MeanProjectionStatus::kFound;
         best.point = PointHere(residual);
@@ -126,6 +133,37 @@ class MeanWalk {
     if ((x - options_.center).norm() + normal->radius > options_.reach) return false;
     normal->n = normals_.At(x, normal->radius).stableNormalized();
     return true;
+  }
+
+  Vector3d NormalOf(int triangle) const {
+    const auto& [a, b, c] = surface_.triangles[triangle];
+    return (surface_.vertices[b] - surface_.vertices[a])
+        .cross(surface_.vertices[c] - surface_.vertices[a])
+        .stableNormalized();
+  }
+
+  // On a triangle that faces inward the way out has left the solid before: on to where it last
+  // does.
+  bool SendBack() {
+    const Vector3d way = at_;
+    double last = 0.0;
+    for (int t = 0; t < static_cast<int>(surface_.triangles.size()); ++t) {
+      const auto& [a, b, c] = surface_.triangles[t];
+      const Vector3d &p = surface_.vertices[a], &q = surface_.vertices[b],
+                     &r = surface_.vertices[c];
+      const Vector3d normal = NormalOf(t);
+      // Outward where the way passes the sides counterclockwise.
+      if (!(normal.dot(way) > 0.0) || way.dot(p.cross(q)) < 0.0 || way.dot(q.cross(r)) < 0.0 ||
+          way.dot(r.cross(p)) < 0.0) {
+        continue;
+      }
+      const double part = normal.dot(p) / normal.dot(way);
+      if (!(part > last && part < 1.0)) continue;
+      last = part;
+      triangle_ = t;
+    }
+    at_ = last * way;
+    return last > 0.0;
   }
 
   Axes AxesOf(int triangle) const {

@@ -68,6 +68,9 @@ struct MeanProjection {
 
 // From a point of the surface on to a q with q x n(q) = 0 that is a stable one: moved off it along
 // the surface, the mean normal points the way back, as at the nearest point of a solid's surface.
+// One on a triangle that faces inward, seen from o, is none: at a sharp crease the mean normal can
+// be along q there, but the way out along q has left the solid before. The search goes on from
+// where it last does, once.
 //
 // Steps are Newton's in the plane of a triangle, with differences for derivatives, no longer than a
 // quarter of h, and put back on the nearest triangle; where Newton would lead to no stable
