@@ -4,9 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
-#include "touchstone/core/base/vector_lanes.h"
+#include "touchstone/core/base/vector_clones.h"
 #include "touchstone/core/cpd/contact_name_internal.h"
 
 namespace touchstone::internal {
@@ -125,29 +124,25 @@ int PrismList::Add(const Prism& prism) {
 TOUCHSTONE_VECTOR_CLONES
 void PrismList::LargestMargins(std::span<const Block> blocks, const Vector3d& x,
                                double margins[kWidth], std::int64_t numbers[kWidth]) {
-  lanes::Reals largest = lanes::Reals{} - 1e299;
-  lanes::Flags at = {};
+  for (int i = 0; i < kWidth; ++i) margins[i] = -1e299, numbers[i] = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block& block = blocks[b];
-    lanes::Reals least = lanes::Reals{} + 1e300;
+    double least[kWidth];
+    for (int i = 0; i < kWidth; ++i) least[i] = 1e300;
     for (int k = 0; k < kPrismPlanes; ++k) {
-      lanes::Reals n0, n1, n2, offset;
-      lanes::Load(block.normal[0][k], &n0);
-      lanes::Load(block.normal[1][k], &n1);
-      lanes::Load(block.normal[2][k], &n2);
-      lanes::Load(block.offset[k], &offset);
-      const lanes::Reals margin = offset - (n0 * x[0] + n1 * x[1] + n2 * x[2]);
-      lanes::Flags is_less;
-      lanes::SpreadSigns(margin - least, &is_less);
-      lanes::Choose(is_less, margin, least, &least);
+      for (int i = 0; i < kWidth; ++i) {
+        const double margin =
+            block.offset[k][i] - (block.normal[0][k][i] * x[0] + block.normal[1][k][i] * x[1] +
+                                  block.normal[2][k][i] * x[2]);
+        least[i] = margin < least[i] ? margin : least[i];
+      }
     }
-    lanes::Flags is_larger;
-    lanes::SpreadSigns(largest - least, &is_larger);
-    lanes::Choose(is_larger, least, largest, &largest);
-    at = (is_larger & (lanes::Flags{} + static_cast<std::int64_t>(b))) | (~is_larger & at);
+    const auto number = static_cast<std::int64_t>(b);
+    for (int i = 0; i < kWidth; ++i) {
+      numbers[i] = least[i] > margins[i] ? number : numbers[i];
+      margins[i] = least[i] > margins[i] ? least[i] : margins[i];
+    }
   }
-  lanes::Store(largest, margins);
-  std::memcpy(numbers, &at, sizeof at);
 }
 
 int PrismList::FindDeepest(const Vector3d& x) const {

@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "touchstone/core/base/vector_lanes.h"
 #include "touchstone/core/cpd/contact_body.h"
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/minkowski/convolution.h"
@@ -63,7 +62,7 @@ class PrismList {
   int FindDeepest(const Eigen::Vector3d& x) const;
 
  private:
-  static constexpr int kWidth = lanes::kWidth, kWindow = 512;
+  static constexpr int kWidth = 8, kWindow = 512;
   struct alignas(64) Block {
     double normal[3][kPrismPlanes][kWidth];
     double offset[kPrismPlanes][kWidth];

@@ -30,14 +30,12 @@ void CandidateList::Make(const MeshPair& pair, const ContactBody& a, const Conta
   distance_ = distance;
   angle_ = angle;
   facets_.clear();
-  // Sums are measured from the ball's centre.
-  const Vector3d shift = -center / scale_;
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   const RelativePose& pose = pair.pose();
   const FeatureTree* of_a[] = {&a.faces(), &a.vertices(), &a.convex_edges()};
   const FeatureTree* of_b[] = {&b.vertices(), &b.faces(), &b.convex_edges()};
   for (int k = 0; k < 3; ++k) {
-    trees_a_[k].Place(*of_a[k], identity, shift, scale_);
+    trees_a_[k].Place(*of_a[k], identity, Vector3d::Zero(), scale_);
     trees_b_[k].Place(*of_b[k], pose.rotation(), pose.translation(), scale_, distance, angle);
     AddPairs(pair, a, b, static_cast<SumFacetKind>(k));
   }
@@ -57,7 +55,7 @@ void CandidateList::AddPairs(const MeshPair& pair, const ContactBody& body_a,
     const FeatureLanes lanes_a = tree_a.lanes(code_a), lanes_b = tree_b.lanes(code_b);
     const FeatureNode &a = *lanes_a.node, &b = *lanes_b.node;
     std::uint8_t masks[kFeatureTreeWidth];
-    MeetingFeatures(lanes_a, lanes_b, radius_, false, masks);
+    MeetingFeatures(lanes_a, lanes_b, {radius_, -radius_, center_}, masks);
     for (int j = 0; j < b.lane_count; ++j) {
       for (unsigned mask = masks[j]; mask != 0; mask &= mask - 1) {
         const int i = std::countr_zero(mask);

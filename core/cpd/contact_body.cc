@@ -4,58 +4,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 namespace touchstone {
 namespace {
 
 using Eigen::Vector3d;
-
-std::vector<int> AllUpTo(int count) {
-  std::vector<int> items(count);
-  std::iota(items.begin(), items.end(), 0);
-  return items;
-}
-
-FeatureTree FaceTree(const TriangleMesh& mesh) {
-  std::vector<FeatureBound> bounds(mesh.face_count());
-  for (int f = 0; f < mesh.face_count(); ++f) {
-    const Triangle& face = mesh.face(f);
-    const Vector3d &a = mesh.vertex(face[0]), &b = mesh.vertex(face[1]), &c = mesh.vertex(face[2]);
-    bounds[f].centre = (a + b + c) / 3.0;
-    for (const int v : face) {
-      bounds[f].radius = std::max(bounds[f].radius, (mesh.vertex(v) - bounds[f].centre).norm());
-    }
-    bounds[f].cone = {mesh.face_normal(f), 1.0};
-  }
-  return FeatureTree(bounds, AllUpTo(mesh.face_count()));
-}
-
-FeatureTree VertexTree(const TriangleMesh& mesh, const GaussMap& map) {
-  std::vector<FeatureBound> bounds(mesh.vertex_count());
-  std::vector<int> items;
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    const VertexKind kind = map.vertex_kind(v);
-    if (kind != VertexKind::kCorner && kind != VertexKind::kSpecial) continue;
-    bounds[v] = {mesh.vertex(v), 0.0, map.vertex_cone(v)};
-    items.push_back(v);
-  }
-  return FeatureTree(bounds, std::move(items));
-}
-
-FeatureTree EdgeTree(const TriangleMesh& mesh, const GaussMap& map) {
-  std::vector<FeatureBound> bounds(mesh.edge_count());
-  std::vector<int> items;
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_kind(e) != EdgeKind::kConvex) continue;
-    const int h = mesh.half_edge_of(e);
-    const Vector3d &a = mesh.vertex(mesh.tail(h)), &b = mesh.vertex(mesh.head(h));
-    bounds[e] = {0.5 * (a + b), 0.5 * (b - a).norm(), map.edge_cone(e)};
-    items.push_back(e);
-  }
-  return FeatureTree(bounds, std::move(items));
-}
 
 // Directions d and an angle such that the solid at v holds all directions within it of d: the
 // middle of the faces' inward normals, and the least height of the link's sides over it. Nothing if
@@ -117,7 +71,7 @@ ContactBody::Data ContactBody::MakeData(const TriangleMesh& mesh) {
             InnerBalls(mesh),
             FaceTree(mesh),
             VertexTree(mesh, map),
-            EdgeTree(mesh, map),
+            ConvexEdgeTree(mesh, map),
             HollowTree(mesh)};
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const int h = mesh.half_edge_of(e);

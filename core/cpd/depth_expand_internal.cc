@@ -14,6 +14,8 @@ namespace touchstone::internal {
 namespace {
 
 constexpr double kListFrames = 8.0;  // steps of a motion that a list has room for
+constexpr double kInner = -0x1p-46;  // facets that have the origin on their inner side
+constexpr double kAnyHeight = -1e100;
 constexpr double kListAngle = 0.06;  // beyond, lists would hold too much
 constexpr double kReach = 4.0;       // times the radius: what is further off is not even noted
 
@@ -169,7 +171,7 @@ void DepthSearcher::Expand(const NodePair& pair) {
   const FeatureLanes a = TreeA(pair.kind).lanes(pair.a), b = TreeB(pair.kind).lanes(pair.b);
   std::uint8_t masks[kFeatureTreeWidth];
   const double limit = is_listing_ ? reach_ : std::min(reach_, answer_.upper);
-  MeetingFeatures(a, b, limit, pair.kind != SumKind::kVertexVertex, masks);
+  MeetingFeatures(a, b, {limit, pair.kind == SumKind::kVertexVertex ? kAnyHeight : kInner}, masks);
   for (int j = 0; j < b.node->lane_count; ++j) {
     for (unsigned mask = masks[j]; mask != 0; mask &= mask - 1) {
       AddLanes(pair, *a.node, std::countr_zero(mask), *b.node, j);

@@ -5,9 +5,10 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
+#include <numeric>
+#include <utility>
 
-#include "touchstone/core/base/vector_lanes.h"
+#include "touchstone/core/base/vector_clones.h"
 #include "touchstone/core/minkowski/normal_cone_internal.h"
 
 namespace touchstone {
@@ -16,17 +17,15 @@ namespace {
 using Eigen::Vector3d;
 using internal::ConeRound;
 using internal::SineOf;
-using lanes::Flags;
-using lanes::Load;
-using lanes::LoadThree;
-using lanes::Reals;
-using lanes::Store;
 
 constexpr int kWidth = kFeatureTreeWidth;
 constexpr double kPadding = 1e-5;
 // Measured on the paper's scenes: anything from 2 to 8 does.
 constexpr double kNormalWeight = 4.0;
 constexpr double kNoHeight = 1e100;
+// A cone that is wider than a half-space counts as all directions. With these for its cosine c and
+// sine s, c cos t - s sin t < -1 for every t up to a right angle, and c² - s² < -1.
+constexpr double kAllCosine = -2.0, kAllSine = 4.0;
 
 // Parts `items` at `at` by place, or by normal where these spread over more of the sphere than
 // places over the body's size.
@@ -87,87 +86,163 @@ HeightRange HeightsAbove(const Vector3d& point, const FeatureBound& bound) {
           holds_up ? length : along * cosine + across * sine};
 }
 
+// Makes the nodes of a tree.
+class TreeMaker {
+ public:
+  TreeMaker(std::span<const FeatureBound> bounds, bool has_normals)
+      : bounds_(bounds), has_normals_(has_normals) {}
+
+  std::vector<FeatureNode> Make(std::span<int> items) {
+    Vector3d low = bounds_[items[0]].centre, high = low;
+    for (const int item : items) {
+      low = low.cwiseMin(bounds_[item].centre);
+      high = high.cwiseMax(bounds_[item].centre);
+    }
+    extent_ = (high - low).maxCoeff();
+    AddNode(items, -1, -1);
+    return std::move(nodes_);
+  }
+
+ private:
+  // A lane's bound, and what is under it.
+  struct Branch {
+    FeatureBound bound;
+    int child = 0;
+    std::span<const int> items;
+  };
+
+  FeatureBound AddNode(std::span<int> items, int parent, int parent_lane) {
+    const int index = static_cast<int>(nodes_.size());
+    nodes_.emplace_back();
+    nodes_[index].parent = parent;
+    nodes_[index].parent_lane = parent_lane;
+    std::ptrdiff_t size = 1;
+    while (size * kWidth < std::ssize(items)) size *= kWidth;
+    std::vector<std::span<int>> runs;
+    PartIntoRuns(bounds_, extent_, items, size, &runs);
+    const int count = static_cast<int>(runs.size());
+    FeatureBound lanes[kWidth];
+    for (int lane = 0; lane < kWidth; ++lane) {
+      Branch branch;
+      if (lane < count) {
+        const std::span<int> run = runs[lane];
+        branch.items = run;
+        branch.child = run.size() == 1 ? ~run[0] : static_cast<int>(nodes_.size());
+        branch.bound = run.size() == 1 ? bounds_[run[0]] : AddNode(run, index, lane);
+      }
+      SetLane(branch, lane, &nodes_[index]);
+      lanes[lane] = branch.bound;
+    }
+    nodes_[index].lane_count = count;
+    return RoundAll(std::span(lanes).first(count));
+  }
+
+  static FeatureBound RoundAll(std::span<const FeatureBound> lanes) {
+    FeatureBound all = lanes[0];
+    Vector3d low = lanes[0].centre, high = low;
+    for (const FeatureBound& lane : lanes) {
+      if (&lane != &lanes[0]) all.cone = ConeRound(all.cone, lane.cone);
+      low = low.cwiseMin(Vector3d(lane.centre.array() - lane.radius));
+      high = high.cwiseMax(Vector3d(lane.centre.array() + lane.radius));
+    }
+    all.centre = 0.5 * (low + high);
+    all.radius = 0.0;
+    for (const FeatureBound& lane : lanes) {
+      all.radius =
+          std::max(all.radius, (lane.centre - all.centre).norm() * (1.0 + 1e-12) + lane.radius);
+    }
+    return all;
+  }
+
+  void SetLane(const Branch& branch, int lane, FeatureNode* node) const {
+    const FeatureBound& bound = branch.bound;
+    for (int i = 0; i < 3; ++i) {
+      node->centre[i][lane] = bound.centre[i];
+      node->axis[i][lane] = bound.cone.axis[i];
+    }
+    node->radius[lane] = bound.radius * (1.0 + kPadding);
+    node->cosine[lane] = bound.cone.cosine <= 0.0 ? kAllCosine : bound.cone.cosine - kPadding;
+    node->sine[lane] = bound.cone.cosine <= 0.0 ? kAllSine : SineOf(bound.cone.cosine) + kPadding;
+    node->children[lane] = branch.child;
+    double low = 0.0, high = 0.0;
+    if (!branch.items.empty()) low = 1e300, high = -1e300;
+    for (const int item : branch.items) {
+      const HeightRange range = HeightsAbove(bound.centre, bounds_[item]);
+      low = std::min(low, range.low);
+      high = std::max(high, range.high);
+    }
+    node->lift[lane] = 0.5 * (low + high);
+    node->flat[lane] = has_normals_ ? 0.5 * (high - low) + kPadding * bound.radius : kNoHeight;
+  }
+
+  const std::span<const FeatureBound> bounds_;
+  const bool has_normals_;
+  std::vector<FeatureNode> nodes_;
+  double extent_ = 0.0;
+};
+
+std::vector<int> AllUpTo(int count) {
+  std::vector<int> items(count);
+  std::iota(items.begin(), items.end(), 0);
+  return items;
+}
+
 }  // namespace
 
 FeatureTree::FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> items,
-                         bool has_normals)
-    : has_normals_(has_normals) {
+                         bool has_normals) {
   if (items.empty()) return;
-  Vector3d low = bounds[items[0]].centre, high = low;
-  for (const int item : items) {
-    low = low.cwiseMin(bounds[item].centre);
-    high = high.cwiseMax(bounds[item].centre);
-  }
-  extent_ = (high - low).maxCoeff();
-  AddNode(bounds, items);
+  nodes_ =
+      std::make_shared<const std::vector<FeatureNode>>(TreeMaker(bounds, has_normals).Make(items));
 }
 
-FeatureBound FeatureTree::AddNode(std::span<const FeatureBound> bounds, std::span<int> items,
-                                  int parent, int parent_lane) {
-  const int index = static_cast<int>(nodes_.size());
-  nodes_.emplace_back();
-  nodes_[index].parent = parent;
-  nodes_[index].parent_lane = parent_lane;
-  std::ptrdiff_t size = 1;
-  while (size * kWidth < std::ssize(items)) size *= kWidth;
-  std::vector<std::span<int>> runs;
-  PartIntoRuns(bounds, extent_, items, size, &runs);
-  const int count = static_cast<int>(runs.size());
-  FeatureBound lanes[kWidth];
-  for (int lane = 0; lane < kWidth; ++lane) {
-    Branch branch{{}, 0, {}};
-    if (lane < count) {
-      const std::span<int> run = runs[lane];
-      branch.items = run;
-      branch.child = run.size() == 1 ? ~run[0] : static_cast<int>(nodes_.size());
-      branch.bound = run.size() == 1 ? bounds[run[0]] : AddNode(bounds, run, index, lane);
+FeatureTree FaceTree(const TriangleMesh& mesh) {
+  std::vector<FeatureBound> bounds(mesh.face_count());
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const Triangle& face = mesh.face(f);
+    const Vector3d &a = mesh.vertex(face[0]), &b = mesh.vertex(face[1]), &c = mesh.vertex(face[2]);
+    bounds[f].centre = (a + b + c) / 3.0;
+    for (const int v : face) {
+      bounds[f].radius = std::max(bounds[f].radius, (mesh.vertex(v) - bounds[f].centre).norm());
     }
-    SetLane(bounds, branch, lane, &nodes_[index]);
-    lanes[lane] = branch.bound;
+    bounds[f].cone = {mesh.face_normal(f), 1.0};
   }
-  nodes_[index].lane_count = count;
-  FeatureBound all = lanes[0];
-  Vector3d low = lanes[0].centre, high = low;
-  for (int lane = 0; lane < count; ++lane) {
-    if (lane > 0) all.cone = ConeRound(all.cone, lanes[lane].cone);
-    low = low.cwiseMin(Vector3d(lanes[lane].centre.array() - lanes[lane].radius));
-    high = high.cwiseMax(Vector3d(lanes[lane].centre.array() + lanes[lane].radius));
-  }
-  all.centre = 0.5 * (low + high);
-  all.radius = 0.0;
-  for (int lane = 0; lane < count; ++lane) {
-    all.radius = std::max(
-        all.radius, (lanes[lane].centre - all.centre).norm() * (1.0 + 1e-12) + lanes[lane].radius);
-  }
-  return all;
+  return FeatureTree(bounds, AllUpTo(mesh.face_count()));
 }
 
-void FeatureTree::SetLane(std::span<const FeatureBound> bounds, const Branch& branch, int lane,
-                          FeatureNode* node) const {
-  const FeatureBound& bound = branch.bound;
-  for (int i = 0; i < 3; ++i) {
-    node->centre[i][lane] = bound.centre[i];
-    node->axis[i][lane] = bound.cone.axis[i];
+FeatureTree VertexTree(const TriangleMesh& mesh, const GaussMap& map) {
+  std::vector<FeatureBound> bounds(mesh.vertex_count());
+  std::vector<int> items;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    const VertexKind kind = map.vertex_kind(v);
+    if (kind != VertexKind::kCorner && kind != VertexKind::kSpecial) continue;
+    bounds[v] = {mesh.vertex(v), 0.0, map.vertex_cone(v)};
+    items.push_back(v);
   }
-  node->radius[lane] = bound.radius * (1.0 + kPadding);
-  node->cosine[lane] = bound.cone.cosine <= 0.0 ? -2.0 : bound.cone.cosine - kPadding;
-  node->sine[lane] = bound.cone.cosine <= 0.0 ? 2.0 : SineOf(bound.cone.cosine) + kPadding;
-  node->children[lane] = branch.child;
-  double low = 0.0, high = 0.0;
-  if (!branch.items.empty()) low = 1e300, high = -1e300;
-  for (const int item : branch.items) {
-    const HeightRange range = HeightsAbove(bound.centre, bounds[item]);
-    low = std::min(low, range.low);
-    high = std::max(high, range.high);
+  return FeatureTree(bounds, std::move(items));
+}
+
+FeatureTree ConvexEdgeTree(const TriangleMesh& mesh, const GaussMap& map) {
+  std::vector<FeatureBound> bounds(mesh.edge_count());
+  std::vector<int> items;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_kind(e) != EdgeKind::kConvex) continue;
+    const int h = mesh.half_edge_of(e);
+    const Vector3d &a = mesh.vertex(mesh.tail(h)), &b = mesh.vertex(mesh.head(h));
+    bounds[e] = {0.5 * (a + b), 0.5 * (b - a).norm(), map.edge_cone(e)};
+    items.push_back(e);
   }
-  node->lift[lane] = 0.5 * (low + high);
-  node->flat[lane] = has_normals_ ? 0.5 * (high - low) + kPadding * bound.radius : kNoHeight;
+  return FeatureTree(bounds, std::move(items));
 }
 
 void PlacedFeatureTree::Place(const FeatureTree& tree, const Eigen::Matrix3d& rotation,
                               const Vector3d& translation, double scale, double distance,
                               double angle) {
-  tree_ = &tree;
+  if (tree_.IsSameAs(tree) && rotation_ == rotation && translation_ == translation &&
+      scale_ == scale && distance_ == distance && angle_ == angle) {
+    return;
+  }
+  tree_ = tree;
   rotation_ = rotation;
   translation_ = translation;
   scale_ = scale;
@@ -182,126 +257,137 @@ void PlacedFeatureTree::Place(const FeatureTree& tree, const Eigen::Matrix3d& ro
 
 TOUCHSTONE_VECTOR_CLONES
 void PlacedFeatureTree::PlaceNode(int i) {
-  const FeatureNode& from = tree_->nodes()[i];
+  const FeatureNode& from = tree_.nodes()[i];
   FeatureNode& to = nodes_[i];
   stamps_[i] = stamp_;
-  Reals centre[3], axis[3], radius, lift, flat;
-  LoadThree(from.centre, centre);
-  LoadThree(from.axis, axis);
   for (int k = 0; k < 3; ++k) {
-    const double x = rotation_(k, 0), y = rotation_(k, 1), z = rotation_(k, 2);
-    Store(scale_ * (x * centre[0] + y * centre[1] + z * centre[2] + translation_[k]), to.centre[k]);
-    Store(x * axis[0] + y * axis[1] + z * axis[2], to.axis[k]);
+    const double x = rotation_(k, 0), y = rotation_(k, 1), z = rotation_(k, 2), t = translation_[k];
+    for (int lane = 0; lane < kWidth; ++lane) {
+      to.centre[k][lane] = scale_ * (x * from.centre[0][lane] + y * from.centre[1][lane] +
+                                     z * from.centre[2][lane] + t);
+      to.axis[k][lane] = x * from.axis[0][lane] + y * from.axis[1][lane] + z * from.axis[2][lane];
+    }
   }
-  Load(from.radius, &radius);
-  Load(from.lift, &lift);
-  Load(from.flat, &flat);
-  radius = scale_ * radius + (0x1p-46 + distance_);
-  Store(radius, to.radius);
-  Store(scale_ * lift, to.lift);
-  Store(scale_ * flat + (0x1p-46 + distance_) + angle_ * radius, to.flat);
-  std::memcpy(to.cosine, from.cosine, sizeof to.cosine);
-  std::memcpy(to.sine, from.sine, sizeof to.sine);
-  std::memcpy(to.children, from.children, sizeof to.children);
+  const double room = 0x1p-46 + distance_;
+  for (int lane = 0; lane < kWidth; ++lane) {
+    const double radius = scale_ * from.radius[lane] + room;
+    to.radius[lane] = radius;
+    to.lift[lane] = scale_ * from.lift[lane];
+    to.flat[lane] = scale_ * from.flat[lane] + room + angle_ * radius;
+    const double wider = from.cosine[lane] * cosine_ - from.sine[lane] * sine_;
+    to.cosine[lane] = wider <= 0.0 ? kAllCosine : wider;
+    to.sine[lane] = wider <= 0.0 ? kAllSine : from.sine[lane] * cosine_ + from.cosine[lane] * sine_;
+  }
+  std::copy(from.children, from.children + kWidth, to.children);
   to.lane_count = from.lane_count;
   to.parent = from.parent;
   to.parent_lane = from.parent_lane;
-  if (angle_ == 0.0) return;
-  for (int lane = 0; lane < kWidth; ++lane) {
-    const double wider = from.cosine[lane] * cosine_ - from.sine[lane] * sine_;
-    const bool is_wide = from.cosine[lane] < -1.0 || wider <= 0.0;
-    to.cosine[lane] = is_wide ? -2.0 : wider;
-    to.sine[lane] = is_wide ? 2.0 : from.sine[lane] * cosine_ + from.cosine[lane] * sine_;
-  }
 }
 
 // Cones meet if the angle between A's axis and minus B's is at most the sum of their angles.
 //
 // Along a normal n in both cones the sum of two features is n.c + l higher than the origin, c being
-// the difference of the centres and l within the sum of `flat` of that of `lift`. Of the normals
-// within a cone, n.c is |c| cos(θ - α) at most and |c| cos(θ + α) at least, θ the angle between c
-// and the axis: c.axis cos α ± |c x axis| sin α; unless c itself, or -c, is within the cone. The
-// origin is below no plane if the most is negative; all planes pass further off than the limit if
-// the least is above it.
+// the difference of the centres, less the point asked round, and l within the sum of `flat` of that
+// of `lift`. Of the normals within a cone, n.c is |c| cos(θ - α) at most and |c| cos(θ + α) at
+// least, θ the angle between c and the axis: c.axis cos α ± |c x axis| sin α; unless c itself, or
+// -c, is within the cone. The origin is below no plane if the most is negative; all planes pass
+// further off than the limit if the least is above it.
 //
 // Lanes of X run in vectors, those of Y one after the other. X may be either body's: seen from B, c
 // and the cones turn to their negatives. What fails is told by sign bits, for comparisons of
 // vectors run lane by lane in clones.
 
+// One lane, as lanes of another node are compared with it.
+struct LaneBound {
+  double centre[3], axis[3], radius, highest, lowest, cosine, sine;
+
+  // Moved by `sense` times the point that is asked round.
+  TOUCHSTONE_INLINE LaneBound(const FeatureNode& node, int lane, double sense,
+                              const FeatureQuery& query)
+      : radius(node.radius[lane]),
+        highest(node.lift[lane] + node.flat[lane]),
+        lowest(node.lift[lane] - node.flat[lane]),
+        cosine(node.cosine[lane]),
+        sine(node.sine[lane]) {
+    for (int k = 0; k < 3; ++k) {
+      centre[k] = node.centre[k][lane] + sense * query.around[k];
+      axis[k] = node.axis[k][lane];
+    }
+  }
+};
+
+// Whether planes across normals in a cone all pass on the far side of the point asked round, or all
+// beyond the reach: c is `along` the axis, and the heights of features from `least` to `most`
+// above those of centres. A cone that bounds nothing tells nothing.
+TOUCHSTONE_INLINE bool AreAllOff(double squared, double along, double cosine, double sine,
+                                 double most, double least) {
+  const double across = (squared - along * along) * sine * sine;
+  const double above = along * cosine + most, below = along * cosine + least;
+  const bool is_beside = along * along < squared * cosine * cosine;
+  const bool is_under = (above < 0.0) & (across < above * above) & (is_beside | (along < 0.0));
+  const bool is_over = (below > 0.0) & (across < below * below) & (is_beside | (along > 0.0));
+  return (is_under | is_over) & (cosine >= -1.0);
+}
+
+// Bit i: whether lane i of X meets Y. Loops in a form that compilers know to put into lanes.
+TOUCHSTONE_INLINE std::uint64_t LanesThatMeet(const FeatureNode& x, const LaneBound& y,
+                                              const FeatureQuery& query) {
+  double squared[kWidth], along_x[kWidth], along_y[kWidth];
+  std::int64_t meets[kWidth], any = 0;
+  for (int i = 0; i < kWidth; ++i) meets[i] = std::int64_t{1} << i;
+  for (int i = 0; i < kWidth; ++i) {
+    const double c0 = x.centre[0][i] - y.centre[0], c1 = x.centre[1][i] - y.centre[1],
+                 c2 = x.centre[2][i] - y.centre[2];
+    const double n0 = x.axis[0][i], n1 = x.axis[1][i], n2 = x.axis[2][i];
+    squared[i] = c0 * c0 + c1 * c1 + c2 * c2;
+    along_x[i] = c0 * n0 + c1 * n1 + c2 * n2;
+    along_y[i] = -(c0 * y.axis[0] + c1 * y.axis[1] + c2 * y.axis[2]);
+    const double reach = x.radius[i] + (query.reach + y.radius);
+    const double between = -(n0 * y.axis[0] + n1 * y.axis[1] + n2 * y.axis[2]);
+    const double widest = x.cosine[i] * y.cosine - x.sine[i] * y.sine;
+    meets[i] = ((squared[i] > reach * reach) | (between < widest)) ? 0 : meets[i];
+  }
+  for (int i = 0; i < kWidth; ++i) any |= meets[i];
+  if (any == 0) return 0;
+  for (int i = 0; i < kWidth; ++i) {
+    const double most = x.lift[i] + x.flat[i] + (y.highest - query.lowest),
+                 least = x.lift[i] - x.flat[i] + (y.lowest - query.reach);
+    const bool is_off = AreAllOff(squared[i], along_x[i], x.cosine[i], x.sine[i], most, least) |
+                        AreAllOff(squared[i], along_y[i], y.cosine, y.sine, most, least);
+    meets[i] = is_off ? 0 : meets[i];
+  }
+  std::uint64_t mask = 0;
+  for (int i = 0; i < kWidth; ++i) mask |= static_cast<std::uint64_t>(meets[i]);
+  return mask & ((std::uint64_t{1} << x.lane_count) - 1);
+}
+
 // Byte j of the result is the mask of lanes of X that meet lane j of Y, for lanes in `lanes_of_y`.
 TOUCHSTONE_INLINE std::uint64_t MeetingLanesOf(const FeatureNode& x, const FeatureNode& y,
-                                               unsigned lanes_of_y, double limit,
-                                               double least_rise) {
-  Reals centre[3], axis[3], radius, lift, flat, cosine, sine;
-  LoadThree(x.centre, centre);
-  LoadThree(x.axis, axis);
-  Load(x.radius, &radius);
-  Load(x.lift, &lift);
-  Load(x.flat, &flat);
-  Load(x.cosine, &cosine);
-  Load(x.sine, &sine);
-  const Reals squared_sine = sine * sine;
-  const Reals highest = lift + flat, lowest = lift - flat;
-  const Flags x_is_narrow = ~(Flags)(cosine + 1.0);
-  const Flags bits = {1, 2, 4, 8, 16, 32, 64, 128};
-  Flags all = {};
+                                               unsigned lanes_of_y, double sense,
+                                               const FeatureQuery& query) {
+  std::uint64_t masks = 0;
   for (; lanes_of_y != 0; lanes_of_y &= lanes_of_y - 1) {
     const int j = std::countr_zero(lanes_of_y);
-    const Reals c0 = centre[0] - y.centre[0][j], c1 = centre[1] - y.centre[1][j],
-                c2 = centre[2] - y.centre[2][j];
-    const Reals squared = c0 * c0 + c1 * c1 + c2 * c2;
-    const Reals reach = limit + radius + y.radius[j];
-    const Reals between =
-        -(axis[0] * y.axis[0][j] + axis[1] * y.axis[1][j] + axis[2] * y.axis[2][j]);
-    const Reals least = cosine * y.cosine[j] - sine * y.sine[j];
-    const Reals of_x = c0 * axis[0] + c1 * axis[1] + c2 * axis[2];
-    const Reals of_y = -(c0 * y.axis[0][j] + c1 * y.axis[1][j] + c2 * y.axis[2][j]);
-    const Reals up = highest + (y.lift[j] + y.flat[j] - least_rise);
-    const Reals down = lowest + (y.lift[j] - y.flat[j] - limit);
-    const Reals along_x = of_x * cosine, along_y = of_y * y.cosine[j];
-    const Reals most_x = along_x + up, most_y = along_y + up;
-    const Reals least_x = along_x + down, least_y = along_y + down;
-    const Reals across_x = (squared - of_x * of_x) * squared_sine;
-    const Reals across_y = (squared - of_y * of_y) * (y.sine[j] * y.sine[j]);
-    const Flags y_is_narrow = Flags{} - (y.cosine[j] < -1.0 ? 0 : 1);
-    const Flags is_far = (Flags)(reach * reach - squared);
-    const Flags is_parted = (Flags)(between - least) & x_is_narrow & y_is_narrow;
-    const Flags is_beside_x = (Flags)(of_x * of_x - squared * (cosine * cosine));
-    const Flags is_beside_y = (Flags)(of_y * of_y - squared * (y.cosine[j] * y.cosine[j]));
-    const Flags is_below_x =
-        (Flags)most_x & (Flags)(across_x - most_x * most_x) & (is_beside_x | (Flags)of_x);
-    const Flags is_below_y =
-        (Flags)most_y & (Flags)(across_y - most_y * most_y) & (is_beside_y | (Flags)of_y);
-    const Flags is_above_x =
-        ~(Flags)least_x & (Flags)(across_x - least_x * least_x) & (is_beside_x | ~(Flags)of_x);
-    const Flags is_above_y =
-        ~(Flags)least_y & (Flags)(across_y - least_y * least_y) & (is_beside_y | ~(Flags)of_y);
-    const Flags fails = is_far | is_parted | ((is_below_x | is_above_x) & x_is_narrow) |
-                        ((is_below_y | is_above_y) & y_is_narrow);
-    all |= ~(fails >> 63) & (bits << (8 * j));
+    masks |= LanesThatMeet(x, LaneBound(y, j, sense, query), query) << (8 * j);
   }
-  std::uint64_t masks = 0;
-  for (int i = 0; i < kWidth; ++i) masks |= static_cast<std::uint64_t>(all[i]);
-  const std::uint64_t used = (std::uint64_t{1} << x.lane_count) - 1;
-  return masks & (used * 0x0101010101010101u);
+  return masks;
 }
 
 TOUCHSTONE_VECTOR_CLONES
-void MeetingFeatures(const FeatureLanes& a, const FeatureLanes& b, double limit, bool faces_away,
+void MeetingFeatures(const FeatureLanes& a, const FeatureLanes& b, const FeatureQuery& query,
                      std::uint8_t masks[kWidth]) {
-  const double least_rise = faces_away ? -0x1p-46 : -1e100;
   unsigned lanes_of_b = b.lane < 0 ? (1u << b.node->lane_count) - 1 : 1u << b.lane;
   if (a.lane >= 0 || (b.lane < 0 && a.parent != nullptr)) {
     // Lanes of B against one lane: A's own, or the one round it, which spares most of them.
     const FeatureNode& of_a = a.lane >= 0 ? *a.node : *a.parent;
     const int lane = a.lane >= 0 ? a.lane : a.node->parent_lane;
-    lanes_of_b &= MeetingLanesOf(*b.node, of_a, 1u << lane, limit, least_rise) >> (8 * lane);
+    lanes_of_b &= MeetingLanesOf(*b.node, of_a, 1u << lane, -1.0, query) >> (8 * lane);
   }
   if (a.lane >= 0) {
     for (int j = 0; j < kWidth; ++j) masks[j] = ((lanes_of_b >> j) & 1) << a.lane;
     return;
   }
-  const std::uint64_t all = MeetingLanesOf(*a.node, *b.node, lanes_of_b, limit, least_rise);
+  const std::uint64_t all = MeetingLanesOf(*a.node, *b.node, lanes_of_b, 1.0, query);
   for (int j = 0; j < kWidth; ++j) masks[j] = static_cast<std::uint8_t>(all >> (8 * j));
 }
 

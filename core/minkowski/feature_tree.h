@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "touchstone/core/mesh/triangle_mesh.h"
 #include "touchstone/core/minkowski/gauss_map.h"
 
 namespace touchstone {
@@ -51,6 +53,7 @@ struct FeatureLanes {
 
 // A tree of spheres and normal cones over features of one kind, in the body's frame. Cosines and
 // sines are padded by 1e-5 and radii by 1e-5 of themselves: a pose may be off orthonormal by 1e-6.
+// Immutable; a copy shares the nodes.
 class FeatureTree {
  public:
   FeatureTree() = default;
@@ -61,35 +64,32 @@ class FeatureTree {
               bool has_normals = true);
 
   // Node 0 is the root.
-  std::span<const FeatureNode> nodes() const { return nodes_; }
+  std::span<const FeatureNode> nodes() const {
+    return nodes_ == nullptr ? std::span<const FeatureNode>() : std::span(*nodes_);
+  }
+  // Whether the other is a copy.
+  bool IsSameAs(const FeatureTree& other) const { return nodes_ == other.nodes_; }
 
  private:
-  // A lane's bound, and what is under it.
-  struct Branch {
-    FeatureBound bound;
-    int child;
-    std::span<const int> items;
-  };
-  FeatureBound AddNode(std::span<const FeatureBound> bounds, std::span<int> items, int parent = -1,
-                       int parent_lane = -1);
-  void SetLane(std::span<const FeatureBound> bounds, const Branch& branch, int lane,
-               FeatureNode* node) const;
-
-  std::vector<FeatureNode> nodes_;
-  double extent_ = 0.0;
-  bool has_normals_ = true;
+  std::shared_ptr<const std::vector<FeatureNode>> nodes_;
 };
 
+// Over a body's faces; its vertices that a face of another body can rest on; its convex edges.
+FeatureTree FaceTree(const TriangleMesh& mesh);
+FeatureTree VertexTree(const TriangleMesh& mesh, const GaussMap& map);
+FeatureTree ConvexEdgeTree(const TriangleMesh& mesh, const GaussMap& map);
+
 // A feature tree placed in another frame: x to scale (R x + t), node by node as they are asked for.
-// The tree must outlive it. Storage is used again. Bounds are padded, so that they hold of any
-// place where points are within `distance` and normals within `angle` of where they are.
+// Storage is used again, and nodes stay where they are as long as they are to. Bounds are padded,
+// so that they hold of any place where points are within `distance` and normals within `angle` of
+// where they are.
 class PlacedFeatureTree {
  public:
   void Place(const FeatureTree& tree, const Eigen::Matrix3d& rotation,
              const Eigen::Vector3d& translation, double scale, double distance = 0.0,
              double angle = 0.0);
 
-  bool empty() const { return tree_ == nullptr || tree_->nodes().empty(); }
+  bool empty() const { return tree_.nodes().empty(); }
   const FeatureNode& node(int i) {
     if (stamps_[i] != stamp_) PlaceNode(i);
     return nodes_[i];
@@ -105,7 +105,7 @@ class PlacedFeatureTree {
  private:
   void PlaceNode(int i);
 
-  const FeatureTree* tree_ = nullptr;
+  FeatureTree tree_;
   Eigen::Matrix3d rotation_;
   Eigen::Vector3d translation_;
   double scale_ = 1.0, distance_ = 0.0, angle_ = 0.0, cosine_ = 1.0, sine_ = 0.0;
@@ -114,10 +114,17 @@ class PlacedFeatureTree {
   std::vector<FeatureNode> nodes_;
 };
 
-// Pairs of lanes whose sums a - b come within `limit` of the origin, whose cones meet (A's with
-// minus B's), and, if asked for, some facet of which may have the origin on its inner side: bit i
-// of masks[j] for lane i of A and lane j of B.
-void MeetingFeatures(const FeatureLanes& a, const FeatureLanes& b, double limit, bool faces_away,
+// Which facets are asked for: those that come within `reach` of a point, with it on the inner side
+// of their plane, or on the outer by no more than `-lowest`.
+struct FeatureQuery {
+  double reach;
+  double lowest = 0.0;
+  Eigen::Vector3d around = Eigen::Vector3d::Zero();
+};
+
+// Pairs of lanes that may have such a facet: whose sums a - b come near, and whose cones meet (A's
+// with minus B's): bit i of masks[j] for lane i of A and lane j of B.
+void MeetingFeatures(const FeatureLanes& a, const FeatureLanes& b, const FeatureQuery& query,
                      std::uint8_t masks[kFeatureTreeWidth]);
 
 // No more than the distance from the origin of any sum of lane i of A and lane j of B.

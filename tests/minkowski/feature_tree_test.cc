@@ -113,7 +113,8 @@ void ExpectBounds(const ContactBody& a, const ContactBody& b, const RelativePose
           for (const FeatureLanes& from_a : {all_a, FeatureLanes{all_a.node, i}}) {
             for (const FeatureLanes& from_b : {all_b, FeatureLanes{all_b.node, j}}) {
               std::uint8_t masks[kFeatureTreeWidth];
-              MeetingFeatures(from_a, from_b, far + slack, faces_away, masks);
+              MeetingFeatures(from_a, from_b, {far + slack, faces_away ? 0.0 : -far - slack},
+                              masks);
               EXPECT_TRUE((masks[j] >> i) & 1) << far << " " << polygon.Height();
             }
           }
@@ -122,7 +123,7 @@ void ExpectBounds(const ContactBody& a, const ContactBody& b, const RelativePose
     }
   }
   std::uint8_t masks[kFeatureTreeWidth];
-  MeetingFeatures(trees_a[0].lanes(0), trees_b[0].lanes(0), 1e-3, true, masks);
+  MeetingFeatures(trees_a[0].lanes(0), trees_b[0].lanes(0), {1e-3}, masks);
   for (int j = 0; j < trees_b[0].node(0).lane_count; ++j) {
     for (int i = 0; i < trees_a[0].node(0).lane_count; ++i)
       counts->parted += !((masks[j] >> i) & 1);
