@@ -14,8 +14,8 @@ namespace {
 // Measured on the paper's scenes: 3 to 8 looks and depths and distances from 2^-12 to 2^-5 do as
 // well.
 constexpr int kMostLooks = 6;
-constexpr double kDeepEnough = 0x1p-11;  // of x in a prism that ends the walk
-constexpr double kNextTo = 0x1p-8;       // of x to a prism that the walk may go through first
+constexpr double kDeepEnough = 0x1p-9;  // of x in a prism that ends the walk
+constexpr double kNextTo = 0x1p-8;      // of x to a prism that the walk may go through first
 constexpr std::size_t kMostCorners = 32;
 
 // Calls visit(name) for what may be the next corner: from an edge and a face, the curve goes on
