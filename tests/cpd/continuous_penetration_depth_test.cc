@@ -158,6 +158,24 @@ TEST(ContinuousPenetrationDepth, NoRateOfTurnWhereThereIsNone) {
   EXPECT_FALSE(boxes.RateOfTurn().has_value());
 }
 
+// A star and a star as they are judged (seed 7, placement 5941 of continuous depths): at a spike of
+// M the mean normal is along q on a side that faces inward, where the way out has left M° before.
+TEST(ContinuousPenetrationDepth, MeanNormalsEndOnTheWayOut) {
+  const TriangleMesh a = MustBuild(NamedShape("star", 100)), b = MustBuild(NamedShape("star", 200));
+  ContinuousPenetrationDepth cpd(a, b, {.normal_radius = 0.3});
+  Matrix3d turned;
+  turned << -0x1.ae6416a898d57p-2, -0x1.c1e52d96f089cp-1, -0x1.cf899910701ep-3,
+      0x1.0c913304ee408p-2, -0x1.6cfdf1131f3d2p-2, 0x1.cb232b5de0302p-1, -0x1.bcc012f6d7c0fp-1,
+      0x1.452aebea3b3bfp-2, 0x1.8565dbb4b3a3cp-2;
+  const RelativePose pose =
+      PoseOf(turned, {0x1.4eaf3217e8522p+0, 0x1.3b6b50e35db4ep-1, 0x1.c47eccd7d243p-5});
+  const ContinuousDepthResult result = cpd.Update(pose);
+  ASSERT_EQ(result.status, ContinuousDepthStatus::kFound);
+  const MeshPair pair(a, b, pose);
+  EXPECT_EQ(Membership(pair, Vector3d((1.0 - 1e-9) * result.translation)).verdict,
+            Verdict::kOverlap);
+}
+
 TEST(ContinuousPenetrationDepth, LimitAndApproximation) {
   const TriangleMesh a = MustBuild(Axes(4)), b = MustBuild(UShape());
   for (int limit = 1; limit <= 3; ++limit) {
