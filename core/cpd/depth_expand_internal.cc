@@ -170,8 +170,8 @@ void DepthSearcher::Expand(const NodePair& pair) {
   ++result_.node_pairs;
   const FeatureLanes a = TreeA(pair.kind).lanes(pair.a), b = TreeB(pair.kind).lanes(pair.b);
   std::uint8_t masks[kFeatureTreeWidth];
-  const double limit = is_listing_ ? reach_ : std::min(reach_, answer_.upper);
-  MeetingFeatures(a, b, {limit, pair.kind == SumKind::kVertexVertex ? kAnyHeight : kInner}, masks);
+  MeetingFeatures(a, b, {Limit(), pair.kind == SumKind::kVertexVertex ? kAnyHeight : kInner},
+                  masks);
   for (int j = 0; j < b.node->lane_count; ++j) {
     for (unsigned mask = masks[j]; mask != 0; mask &= mask - 1) {
       AddLanes(pair, *a.node, std::countr_zero(mask), *b.node, j);
@@ -190,7 +190,9 @@ void DepthSearcher::AddLanes(const NodePair& pair, const FeatureNode& a, int i,
     if (s_.balls.Holds(centre, radius)) return;
   }
   const int child_a = a.children[i], child_b = b.children[j];
-  const double near = std::max(pair.near, NearestSum(a, i, b, j));
+  // Where all that meets is wanted now, how near it is does not matter.
+  const bool is_order_needed = radius_ < Limit();
+  const double near = is_order_needed ? std::max(pair.near, NearestSum(a, i, b, j)) : pair.near;
   if (child_a >= 0 || child_b >= 0 || !(near < radius_)) {
     (near < radius_ ? s_.stack : s_.later)
         .push_back({near, pair.kind, FeatureLanes::Next(child_a, pair.a, i),

@@ -6,6 +6,7 @@
 #define TOUCHSTONE_CORE_CPD_DEPTH_SEARCHER_INTERNAL_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -68,6 +69,8 @@ class DepthSearcher {
   PlacedFeatureTree& TreeB(SumKind kind);
   // All pairs of features again, of which those within the reach are seen.
   void BeginAtRoots(double reach);
+  // Beyond, no pair of features is seen.
+  double Limit() const { return is_listing_ ? reach_ : std::min(reach_, answer_.upper); }
   // Whether an item was kept before that.
   bool WasMade(SumKind kind, int a, int b) const;
   // Makes all facets that may come within `radius_`, but for those made before; other pairs wait.
