@@ -352,9 +352,9 @@ TOUCHSTONE_INLINE std::uint64_t LanesThatMeet(const FeatureNode& x, const LaneBo
   for (int i = 0; i < kWidth; ++i) {
     const double most = x.lift[i] + x.flat[i] + (y.highest - query.lowest),
                  least = x.lift[i] - x.flat[i] + (y.lowest - query.reach);
-    const bool is_off = AreAllOff(squared[i], along_x[i], x.cosine[i], x.sine[i], most, least) |
-                        AreAllOff(squared[i], along_y[i], y.cosine, y.sine, most, least);
-    meets[i] = is_off ? 0 : meets[i];
+    const bool off_x = AreAllOff(squared[i], along_x[i], x.cosine[i], x.sine[i], most, least),
+               off_y = AreAllOff(squared[i], along_y[i], y.cosine, y.sine, most, least);
+    meets[i] = (off_x | off_y) ? 0 : meets[i];
   }
   std::uint64_t mask = 0;
   for (int i = 0; i < kWidth; ++i) mask |= static_cast<std::uint64_t>(meets[i]);
