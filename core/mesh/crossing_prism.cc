@@ -108,9 +108,8 @@ bool CrossingPrism::Holds(const MeshPair& pair, const Translation& x) const {
   const double normal_error = normal_error_ + turns_move_ * moved;
   const double error = 1.01 * (3.0 * e + (normal_error + 5.1 * kUnit) * (length + 6.0 + 3.0 * e));
   // No branch between the planes: a warm question is all about these.
-  int above = 0;
-  for (int k = 0; k < kPlanes; ++k) above += normals_[k].dot(y) - heights_[k] > 5.0 * error;
-  return above == kPlanes;
+  const auto above = [&](int k) -> int { return normals_[k].dot(y) - heights_[k] > 5.0 * error; };
+  return (above(0) & above(1) & above(2) & above(3) & above(4)) != 0;
 }
 
 }  // namespace touchstone
