@@ -183,4 +183,10 @@ std::optional<ExactPoint> ExactPointOf(const MeshPair& pair, const ContactName& 
   return ExactPoint{at, denominator * factor};
 }
 
+RoundedPoint Rounded(const ExactPoint& point) {
+  Vector3d x;
+  for (int k = 0; k < 3; ++k) x[k] = RatioToDouble(point.coordinates[k], point.denominator);
+  return {x, 0x1p-52 * x.cwiseAbs().maxCoeff() + 0x1p-1074};
+}
+
 }  // namespace touchstone::internal

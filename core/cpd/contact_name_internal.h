@@ -62,6 +62,13 @@ std::optional<PointEstimate> EstimatePoint(const MeshPair& pair, const ContactNa
 // nearest point in common.
 std::optional<ExactPoint> ExactPointOf(const MeshPair& pair, const ContactName& name);
 
+// An exact point in doubles: each coordinate is within `error` of it.
+struct RoundedPoint {
+  Eigen::Vector3d at;
+  double error;
+};
+RoundedPoint Rounded(const ExactPoint& point);
+
 }  // namespace touchstone::internal
 
 #endif  // TOUCHSTONE_CORE_CPD_CONTACT_NAME_INTERNAL_H_

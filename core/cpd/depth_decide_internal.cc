@@ -164,9 +164,7 @@ void DepthSearcher::OrientWall(const Vector3d& normal, SumFacet* facet) const {
 bool DepthSearcher::IsOutsideExactly(const ContactName& name) {
   const auto exact = ExactPointOf(pair_, name);
   if (!exact) return false;
-  Vector3d x;
-  for (int k = 0; k < 3; ++k) x[k] = RatioToDouble(exact->coordinates[k], exact->denominator);
-  const double error = 0x1p-52 * x.cwiseAbs().maxCoeff() + 0x1p-1074;
+  const auto [x, error] = Rounded(*exact);
   ++result_.exact_memberships;
   last_ = Membership(pair_, Translation(x, error, *exact), {Certainty::kExact}, &s_.membership);
   if (last_.verdict == Verdict::kOverlap) return false;

@@ -127,9 +127,7 @@ void ConfirmExactly(const MeshPair& pair, DepthAnswer* answer, MembershipCache* 
                     MeshDepthResult* result) {
   const auto exact = internal::ExactPointOf(pair, *answer->name);
   if (!exact) return;
-  Vector3d x;
-  for (int k = 0; k < 3; ++k) x[k] = RatioToDouble(exact->coordinates[k], exact->denominator);
-  const double error = 0x1p-52 * x.cwiseAbs().maxCoeff() + 0x1p-1074;
+  const auto [x, error] = internal::Rounded(*exact);
   ++result->exact_memberships;
   const Verdict verdict =
       Membership(pair, Translation(x, error, *exact), {Certainty::kExact}, cache).verdict;

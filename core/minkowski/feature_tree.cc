@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -22,7 +23,7 @@ constexpr int kWidth = kFeatureTreeWidth;
 constexpr double kPadding = 1e-5;
 // Measured on the paper's scenes: anything from 2 to 8 does.
 constexpr double kNormalWeight = 4.0;
-constexpr double kNoHeight = 1e100;
+constexpr double kNoHeight = std::numeric_limits<double>::infinity();  // at any scale
 // A cone that is wider than a half-space counts as all directions. With these for its cosine c and
 // sine s, c cos t - s sin t < -1 for every t up to a right angle, and c² - s² < -1.
 constexpr double kAllCosine = -2.0, kAllSine = 4.0;
