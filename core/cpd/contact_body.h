@@ -36,9 +36,9 @@ class ContactBody {
   // Vertices that a face of another body can rest on.
   const FeatureTree& vertices() const { return data_->vertices; }
   const FeatureTree& convex_edges() const { return data_->convex_edges; }
-  // Vertices with a reflex edge, bounded by caps that their solids hold: a pair of these can lock,
-  // each in the other's hollow, where no facet passes.
-  const FeatureTree& hollow_vertices() const { return data_->hollow_vertices; }
+  // Vertices that the solid cannot back out of, into itself, in any direction: a pair of these can
+  // lock, each in the other's hollow, where no facet passes. Few bodies have any.
+  const FeatureTree& locking_vertices() const { return data_->locking_vertices; }
 
  private:
   struct Data {
@@ -46,7 +46,7 @@ class ContactBody {
     GaussMap gauss_map;
     std::vector<Edge> edges;
     std::vector<InnerBall> balls;
-    FeatureTree faces, vertices, convex_edges, hollow_vertices;
+    FeatureTree faces, vertices, convex_edges, locking_vertices;
   };
   static Data MakeData(const TriangleMesh& mesh);
 

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kListFrames = 8.0;  // steps of a motion that a list has room for
 constexpr double kInner = -0x1p-46;  // facets that have the origin on their inner side
-constexpr double kAnyHeight = -1e100;
 constexpr double kListAngle = 0.06;  // beyond, lists would hold too much
 constexpr double kReach = 4.0;       // times the radius: what is further off is not even noted
 
@@ -92,13 +91,13 @@ void DepthSearcher::PlaceTrees(double distance, double angle) {
   s_.faces_a.Place(a_.faces(), identity, zero, scale);
   s_.vertices_a.Place(a_.vertices(), identity, zero, scale);
   s_.edges_a.Place(a_.convex_edges(), identity, zero, scale);
-  s_.hollows_a.Place(a_.hollow_vertices(), identity, zero, scale);
+  s_.locks_a.Place(a_.locking_vertices(), identity, zero, scale);
   const Eigen::Matrix3d& rotation = pair_.pose().rotation();
   const Vector3d& translation = pair_.pose().translation();
   s_.faces_b.Place(b_.faces(), rotation, translation, scale, distance, angle);
   s_.vertices_b.Place(b_.vertices(), rotation, translation, scale, distance, angle);
   s_.edges_b.Place(b_.convex_edges(), rotation, translation, scale, distance, angle);
-  s_.hollows_b.Place(b_.hollow_vertices(), rotation, translation, scale, distance, angle);
+  s_.locks_b.Place(b_.locking_vertices(), rotation, translation, scale, distance, angle);
   s_.made.clear();
   BeginAtRoots(is_listing_ ? s_.list.limit : kReach * radius_);
 }
@@ -125,7 +124,7 @@ PlacedFeatureTree& DepthSearcher::TreeA(SumKind kind) {
     case SumKind::kVertexVertex:
       break;
   }
-  return s_.hollows_a;
+  return s_.locks_a;
 }
 
 PlacedFeatureTree& DepthSearcher::TreeB(SumKind kind) {
@@ -139,7 +138,7 @@ PlacedFeatureTree& DepthSearcher::TreeB(SumKind kind) {
     case SumKind::kVertexVertex:
       break;
   }
-  return s_.hollows_b;
+  return s_.locks_b;
 }
 
 void DepthSearcher::ExpandWithinRadius() {
@@ -170,8 +169,7 @@ void DepthSearcher::Expand(const NodePair& pair) {
   ++result_.node_pairs;
   const FeatureLanes a = TreeA(pair.kind).lanes(pair.a), b = TreeB(pair.kind).lanes(pair.b);
   std::uint8_t masks[kFeatureTreeWidth];
-  MeetingFeatures(a, b, {Limit(), pair.kind == SumKind::kVertexVertex ? kAnyHeight : kInner},
-                  masks);
+  MeetingFeatures(a, b, {Limit(), kInner}, masks);
   for (int j = 0; j < b.node->lane_count; ++j) {
     for (unsigned mask = masks[j]; mask != 0; mask &= mask - 1) {
       AddLanes(pair, *a.node, std::countr_zero(mask), *b.node, j);

@@ -53,8 +53,7 @@ struct DepthScratch {
   std::vector<std::pair<int, int>> ball_faces;
 
   // Storage.
-  PlacedFeatureTree faces_a, vertices_a, edges_a, hollows_a, faces_b, vertices_b, edges_b,
-      hollows_b;
+  PlacedFeatureTree faces_a, vertices_a, edges_a, locks_a, faces_b, vertices_b, edges_b, locks_b;
   std::vector<NodePair> stack, later;
   std::vector<std::uint64_t> made;  // items kept in this query
   std::vector<MetFacet> facets;

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -23,7 +22,6 @@ constexpr int kWidth = kFeatureTreeWidth;
 constexpr double kPadding = 1e-5;
 // Measured on the paper's scenes: anything from 2 to 8 does.
 constexpr double kNormalWeight = 4.0;
-constexpr double kNoHeight = std::numeric_limits<double>::infinity();  // at any scale
 // A cone that is wider than a half-space counts as all directions. With these for its cosine c and
 // sine s, c cos t - s sin t < -1 for every t up to a right angle, and c² - s² < -1.
 constexpr double kAllCosine = -2.0, kAllSine = 4.0;
@@ -90,8 +88,7 @@ HeightRange HeightsAbove(const Vector3d& point, const FeatureBound& bound) {
 // Makes the nodes of a tree.
 class TreeMaker {
  public:
-  TreeMaker(std::span<const FeatureBound> bounds, bool has_normals)
-      : bounds_(bounds), has_normals_(has_normals) {}
+  explicit TreeMaker(std::span<const FeatureBound> bounds) : bounds_(bounds) {}
 
   std::vector<FeatureNode> Make(std::span<int> items) {
     Vector3d low = bounds_[items[0]].centre, high = low;
@@ -173,11 +170,10 @@ class TreeMaker {
       high = std::max(high, range.high);
     }
     node->lift[lane] = 0.5 * (low + high);
-    node->flat[lane] = has_normals_ ? 0.5 * (high - low) + kPadding * bound.radius : kNoHeight;
+    node->flat[lane] = 0.5 * (high - low) + kPadding * bound.radius;
   }
 
   const std::span<const FeatureBound> bounds_;
-  const bool has_normals_;
   std::vector<FeatureNode> nodes_;
   double extent_ = 0.0;
 };
@@ -190,11 +186,9 @@ std::vector<int> AllUpTo(int count) {
 
 }  // namespace
 
-FeatureTree::FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> items,
-                         bool has_normals) {
+FeatureTree::FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> items) {
   if (items.empty()) return;
-  nodes_ =
-      std::make_shared<const std::vector<FeatureNode>>(TreeMaker(bounds, has_normals).Make(items));
+  nodes_ = std::make_shared<const std::vector<FeatureNode>>(TreeMaker(bounds).Make(items));
 }
 
 FeatureTree FaceTree(const TriangleMesh& mesh) {

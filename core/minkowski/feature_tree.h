@@ -57,11 +57,8 @@ struct FeatureLanes {
 class FeatureTree {
  public:
   FeatureTree() = default;
-  // Over the items listed, item k with bounds[items[k]]. Features without normals, such as vertices
-  // that lock into each other, have cones that bound something else, and no heights. Complexity:
-  // O(n log n).
-  FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> items,
-              bool has_normals = true);
+  // Over the items listed, item k with bounds[items[k]]. Complexity: O(n log n).
+  FeatureTree(std::span<const FeatureBound> bounds, std::vector<int> items);
 
   // Node 0 is the root.
   std::span<const FeatureNode> nodes() const {
