@@ -21,6 +21,25 @@ constexpr double kPointSlack = 0x1p-46;
 // A plane less certain than this buries nothing.
 constexpr double kWorstSlack = 0x1p-16;
 
+// Whether the segment passes through the face, or past a corner or end by no more than `outside`;
+// by roundings, to spare what does not. The face's corners run counterclockwise round its normal.
+bool Passes(const Vector3d& tail, const Vector3d& head, const Vector3d& normal,
+            const Vector3d* const face[3], double outside) {
+  const double from = normal.dot(tail - *face[0]), to = normal.dot(head - *face[0]);
+  if (!(from * to < 0.0)) {
+    const double off = std::min(std::abs(from), std::abs(to));
+    if (outside == 0.0 || off * off > outside * outside * normal.squaredNorm()) return false;
+  }
+  const Vector3d along = from < to ? Vector3d(head - tail) : Vector3d(tail - head);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d across = along.cross(*face[(k + 1) % 3] - *face[k]);
+    const double inward = across.dot(tail - *face[k]);
+    if (inward > 0.0) continue;
+    if (outside == 0.0 || inward * inward > outside * outside * across.squaredNorm()) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 double Prism::Margin(const Vector3d& x) const {
@@ -52,18 +71,18 @@ bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
   const Vector3d &tail = of_edge.points[edge.tail], &head = of_edge.points[edge.head];
   const double sign = name.edge_is_of_a ? 1.0 : -1.0;  // of the edge's points in the sums
   const Triangle& corners = of_face.mesh.face(name.face);
-  Vector3d face[3];
-  for (int k = 0; k < 3; ++k) face[k] = of_face.points[corners[k]];
-  const Vector3d middle = sign * (0.5 * (tail + head) - (face[0] + face[1] + face[2]) / 3.0);
+  const Vector3d* const face[] = {&of_face.points[corners[0]], &of_face.points[corners[1]],
+                                  &of_face.points[corners[2]]};
+  const FacePlane& plane = of_face.planes[name.face];
+  // Most prisms are asked about a point that one of their planes leaves out.
+  if (x != nullptr && !Passes(tail - sign * *x, head - sign * *x, plane.normal, face, outside)) {
+    return false;
+  }
+  const Vector3d middle = sign * (0.5 * (tail + head) - (*face[0] + *face[1] + *face[2]) / 3.0);
   prism->name = name;
   const Vector3d along = head - tail;
   const auto set = [&](int k, const Vector3d& normal, double error, const Vector3d& at) {
-    // Most prisms are asked about a point that one of their planes leaves out.
-    const double height_of_x = x != nullptr ? normal.dot(*x - at) : 0.0;
-    const bool is_outside = x != nullptr && height_of_x * normal.dot(middle - at) <= 0.0;
-    if (is_outside && outside == 0.0) return false;
     const double length = normal.norm();
-    if (is_outside && std::abs(height_of_x) > outside * length) return false;
     if (!(length > 0.0)) return false;
     Vector3d unit = normal / length;
     double height = unit.dot(at);
@@ -76,15 +95,14 @@ bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
     // The middle must be within, or the side that was taken for the inner one may not be it.
     return unit.dot(middle) < prism->offsets[k];
   };
-  const FacePlane& plane = of_face.planes[name.face];
-  if (!set(0, plane.normal, plane.error, sign * (tail - face[0])) ||
-      !set(1, plane.normal, plane.error, sign * (head - face[0]))) {
+  if (!set(0, plane.normal, plane.error, sign * (tail - *face[0])) ||
+      !set(1, plane.normal, plane.error, sign * (head - *face[0]))) {
     return false;
   }
   const double along_size = along.cwiseAbs().maxCoeff();
   const double along_error = 1.01 * (2.0 * of_edge.point_error + kUnit * along_size);
   for (int k = 0; k < 3; ++k) {
-    const Vector3d side = face[(k + 1) % 3] - face[k];
+    const Vector3d side = *face[(k + 1) % 3] - *face[k];
     const double side_size = side.cwiseAbs().maxCoeff();
     const double side_error = 1.01 * (2.0 * of_face.point_error + kUnit * side_size);
     // As EstimatePlane's.
@@ -92,7 +110,7 @@ bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
         1.01 *
         (4.1 * kUnit * along_size * side_size +
          2.0 * (along_size * side_error + side_size * along_error + along_error * side_error));
-    if (!set(2 + k, along.cross(side), error, sign * (tail - face[k]))) return false;
+    if (!set(2 + k, along.cross(side), error, sign * (tail - *face[k]))) return false;
   }
   return true;
 }
