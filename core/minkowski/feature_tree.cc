@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/minkowski/feature_tree.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -65,6 +66,27 @@ void PartIntoRuns(std::span<const FeatureBound> bounds, double extent, std::span
   PartIntoRuns(bounds, extent, items.subspan(at), size, runs);
 }
 
+// Sets the pole and the belt of a bound round the items: the direction that their rays leave most
+// free. A normal between rays r_k is their mean over its length, and that is at least the cosine of
+// the item's cone: so it is off the plane by no more than the furthest ray over that.
+void SetBelt(std::span<const FeatureBound> bounds, std::span<const int> items,
+             FeatureBound* bound) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const int item : items) {
+    if (bounds[item].rays.empty() || bounds[item].cone.cosine <= 0.0) return;
+    for (const Vector3d& ray : bounds[item].rays) spread += ray * ray.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  bound->pole = axes.eigenvectors().col(0).normalized();
+  bound->belt = 0.0;
+  for (const int item : items) {
+    for (const Vector3d& ray : bounds[item].rays) {
+      bound->belt =
+          std::max(bound->belt, std::abs(ray.dot(bound->pole)) / bounds[item].cone.cosine);
+    }
+  }
+}
+
 // How high a feature's centre lies above a point along the normals of its cone.
 struct HeightRange {
   double low, high;
@@ -127,6 +149,7 @@ class TreeMaker {
         branch.items = run;
         branch.child = run.size() == 1 ? ~run[0] : static_cast<int>(nodes_.size());
         branch.bound = run.size() == 1 ? bounds_[run[0]] : AddNode(run, index, lane);
+        SetBelt(bounds_, run, &branch.bound);
       }
       SetLane(branch, lane, &nodes_[index]);
       lanes[lane] = branch.bound;
@@ -136,7 +159,8 @@ class TreeMaker {
   }
 
   static FeatureBound RoundAll(std::span<const FeatureBound> lanes) {
-    FeatureBound all = lanes[0];
+    FeatureBound all;
+    all.cone = lanes[0].cone;
     Vector3d low = lanes[0].centre, high = low;
     for (const FeatureBound& lane : lanes) {
       if (&lane != &lanes[0]) all.cone = ConeRound(all.cone, lane.cone);
@@ -157,10 +181,12 @@ class TreeMaker {
     for (int i = 0; i < 3; ++i) {
       node->centre[i][lane] = bound.centre[i];
       node->axis[i][lane] = bound.cone.axis[i];
+      node->pole[i][lane] = bound.pole[i];
     }
     node->radius[lane] = bound.radius * (1.0 + kPadding);
     node->cosine[lane] = bound.cone.cosine <= 0.0 ? kAllCosine : bound.cone.cosine - kPadding;
     node->sine[lane] = bound.cone.cosine <= 0.0 ? kAllSine : SineOf(bound.cone.cosine) + kPadding;
+    node->belt[lane] = bound.belt + kPadding;
     node->children[lane] = branch.child;
     double low = 0.0, high = 0.0;
     if (!branch.items.empty()) low = 1e300, high = -1e300;
@@ -201,6 +227,7 @@ FeatureTree FaceTree(const TriangleMesh& mesh) {
       bounds[f].radius = std::max(bounds[f].radius, (mesh.vertex(v) - bounds[f].centre).norm());
     }
     bounds[f].cone = {mesh.face_normal(f), 1.0};
+    bounds[f].rays = {mesh.face_normal(f)};
   }
   return FeatureTree(bounds, AllUpTo(mesh.face_count()));
 }
@@ -211,7 +238,14 @@ FeatureTree VertexTree(const TriangleMesh& mesh, const GaussMap& map) {
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     const VertexKind kind = map.vertex_kind(v);
     if (kind != VertexKind::kCorner && kind != VertexKind::kSpecial) continue;
-    bounds[v] = {mesh.vertex(v), 0.0, map.vertex_cone(v)};
+    bounds[v] = {.centre = mesh.vertex(v), .cone = map.vertex_cone(v)};
+    const auto around = map.essential_neighbors(v);
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      const Vector3d first = (mesh.vertex(around[k]) - mesh.vertex(v)).normalized(),
+                     second = (mesh.vertex(around[(k + 1) % around.size()]) - mesh.vertex(v))
+                                  .normalized();
+      bounds[v].rays.push_back(first.cross(second).normalized());
+    }
     items.push_back(v);
   }
   return FeatureTree(bounds, std::move(items));
@@ -224,7 +258,9 @@ FeatureTree ConvexEdgeTree(const TriangleMesh& mesh, const GaussMap& map) {
     if (mesh.edge_kind(e) != EdgeKind::kConvex) continue;
     const int h = mesh.half_edge_of(e);
     const Vector3d &a = mesh.vertex(mesh.tail(h)), &b = mesh.vertex(mesh.head(h));
-    bounds[e] = {0.5 * (a + b), 0.5 * (b - a).norm(), map.edge_cone(e)};
+    bounds[e] = {.centre = 0.5 * (a + b), .radius = 0.5 * (b - a).norm(), .cone = map.edge_cone(e)};
+    bounds[e].rays = {mesh.face_normal(TriangleMesh::face_of(h)),
+                      mesh.face_normal(TriangleMesh::face_of(mesh.twin(h)))};
     items.push_back(e);
   }
   return FeatureTree(bounds, std::move(items));
@@ -261,6 +297,7 @@ void PlacedFeatureTree::PlaceNode(int i) {
       to.centre[k][lane] = scale_ * (x * from.centre[0][lane] + y * from.centre[1][lane] +
                                      z * from.centre[2][lane] + t);
       to.axis[k][lane] = x * from.axis[0][lane] + y * from.axis[1][lane] + z * from.axis[2][lane];
+      to.pole[k][lane] = x * from.pole[0][lane] + y * from.pole[1][lane] + z * from.pole[2][lane];
     }
   }
   const double room = 0x1p-46 + distance_;
@@ -269,6 +306,7 @@ void PlacedFeatureTree::PlaceNode(int i) {
     to.radius[lane] = radius;
     to.lift[lane] = scale_ * from.lift[lane];
     to.flat[lane] = scale_ * from.flat[lane] + room + angle_ * radius;
+    to.belt[lane] = from.belt[lane] + angle_;
     const double wider = from.cosine[lane] * cosine_ - from.sine[lane] * sine_;
     to.cosine[lane] = wider <= 0.0 ? kAllCosine : wider;
     to.sine[lane] = wider <= 0.0 ? kAllSine : from.sine[lane] * cosine_ + from.cosine[lane] * sine_;
@@ -294,7 +332,7 @@ void PlacedFeatureTree::PlaceNode(int i) {
 
 // One lane, as lanes of another node are compared with it.
 struct LaneBound {
-  double centre[3], axis[3], radius, highest, lowest, cosine, sine;
+  double centre[3], axis[3], pole[3], radius, highest, lowest, cosine, sine, belt;
 
   // Moved by `sense` times the point that is asked round.
   TOUCHSTONE_INLINE LaneBound(const FeatureNode& node, int lane, double sense,
@@ -303,10 +341,12 @@ struct LaneBound {
         highest(node.lift[lane] + node.flat[lane]),
         lowest(node.lift[lane] - node.flat[lane]),
         cosine(node.cosine[lane]),
-        sine(node.sine[lane]) {
+        sine(node.sine[lane]),
+        belt(node.belt[lane]) {
     for (int k = 0; k < 3; ++k) {
       centre[k] = node.centre[k][lane] + sense * query.around[k];
       axis[k] = node.axis[k][lane];
+      pole[k] = node.pole[k][lane];
     }
   }
 };
@@ -322,6 +362,13 @@ TOUCHSTONE_INLINE bool AreAllOff(double squared, double along, double cosine, do
   const bool is_under = (above < 0.0) & (across < above * above) & (is_beside | (along < 0.0));
   const bool is_over = (below > 0.0) & (across < below * below) & (is_beside | (along > 0.0));
   return (is_under | is_over) & (cosine >= -1.0);
+}
+
+// Whether no normal in a cone is within a belt, `to_pole` from the cone's axis to the pole: of
+// these |n.pole| is |to_pole| cos α - sqrt(1 - to_pole²) sin α at least.
+TOUCHSTONE_INLINE bool IsOffBelt(double to_pole, double cosine, double sine, double belt) {
+  const double off = std::abs(to_pole) * cosine - belt;
+  return (off > 0.0) & (off * off > (1.0 - to_pole * to_pole) * sine * sine);
 }
 
 // Bit i: whether lane i of X meets Y. Loops in a form that compilers know to put into lanes.
@@ -349,7 +396,13 @@ TOUCHSTONE_INLINE std::uint64_t LanesThatMeet(const FeatureNode& x, const LaneBo
                  least = x.lift[i] - x.flat[i] + (y.lowest - query.reach);
     const bool off_x = AreAllOff(squared[i], along_x[i], x.cosine[i], x.sine[i], most, least),
                off_y = AreAllOff(squared[i], along_y[i], y.cosine, y.sine, most, least);
-    meets[i] = (off_x | off_y) ? 0 : meets[i];
+    const double to_y =
+                     x.axis[0][i] * y.pole[0] + x.axis[1][i] * y.pole[1] + x.axis[2][i] * y.pole[2],
+                 to_x =
+                     x.pole[0][i] * y.axis[0] + x.pole[1][i] * y.axis[1] + x.pole[2][i] * y.axis[2];
+    const bool off_belt_y = IsOffBelt(to_y, x.cosine[i], x.sine[i], y.belt),
+               off_belt_x = IsOffBelt(to_x, y.cosine, y.sine, x.belt[i]);
+    meets[i] = (off_x | off_y | off_belt_x | off_belt_y) ? 0 : meets[i];
   }
   std::uint64_t mask = 0;
   for (int i = 0; i < kWidth; ++i) mask |= static_cast<std::uint64_t>(meets[i]);

@@ -13,12 +13,17 @@
 
 namespace touchstone {
 
-// Where a feature is, and which way it can be in contact. The centre is a point of the feature, or
-// of the plane or line that it lies in.
+// Where a feature is, and which way it can be in contact: along normals in a cone and no more than
+// `belt` off the plane across `pole`, for an edge's normals are an arc, and those of vertices on a
+// ridge are all but one. The centre is a point of the feature, or of the plane or line that it lies
+// in.
 struct FeatureBound {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0.0;
   NormalCone cone;
+  Eigen::Vector3d pole = Eigen::Vector3d::UnitZ();
+  double belt = 1.0;                       // all
+  std::vector<Eigen::Vector3d> rays = {};  // of unit length, where the normals are what they span
 };
 
 inline constexpr int kFeatureTreeWidth = 8;
@@ -33,6 +38,7 @@ struct alignas(64) FeatureNode {
   double lift[kFeatureTreeWidth], flat[kFeatureTreeWidth];
   double axis[3][kFeatureTreeWidth];
   double cosine[kFeatureTreeWidth], sine[kFeatureTreeWidth];
+  double pole[3][kFeatureTreeWidth], belt[kFeatureTreeWidth];
   std::int32_t children[kFeatureTreeWidth];
   int lane_count;
   std::int32_t parent, parent_lane;  // the lane round this node; -1 at the root
@@ -51,9 +57,9 @@ struct FeatureLanes {
   }
 };
 
-// A tree of spheres and normal cones over features of one kind, in the body's frame. Cosines and
-// sines are padded by 1e-5 and radii by 1e-5 of themselves: a pose may be off orthonormal by 1e-6.
-// Immutable; a copy shares the nodes.
+// A tree of spheres, normal cones and belts over features of one kind, in the body's frame.
+// Cosines, sines and belts are padded by 1e-5 and radii by 1e-5 of themselves: a pose may be off
+// orthonormal by 1e-6. Immutable; a copy shares the nodes.
 class FeatureTree {
  public:
   FeatureTree() = default;
