@@ -21,25 +21,6 @@ constexpr double kPointSlack = 0x1p-46;
 // A plane less certain than this buries nothing.
 constexpr double kWorstSlack = 0x1p-16;
 
-// Whether the segment passes through the face, or past a corner or end by no more than `outside`;
-// by roundings, to spare what does not. The face's corners run counterclockwise round its normal.
-bool Passes(const Vector3d& tail, const Vector3d& head, const Vector3d& normal,
-            const Vector3d* const face[3], double outside) {
-  const double from = normal.dot(tail - *face[0]), to = normal.dot(head - *face[0]);
-  if (!(from * to < 0.0)) {
-    const double off = std::min(std::abs(from), std::abs(to));
-    if (outside == 0.0 || off * off > outside * outside * normal.squaredNorm()) return false;
-  }
-  const Vector3d along = from < to ? Vector3d(head - tail) : Vector3d(tail - head);
-  for (int k = 0; k < 3; ++k) {
-    const Vector3d across = along.cross(*face[(k + 1) % 3] - *face[k]);
-    const double inward = across.dot(tail - *face[k]);
-    if (inward > 0.0) continue;
-    if (outside == 0.0 || inward * inward > outside * outside * across.squaredNorm()) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 double Prism::Margin(const Vector3d& x) const {
@@ -64,7 +45,7 @@ SumFacet FacetOf(const MeshPair& pair, const PrismName& name, int plane) {
 }
 
 bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
-               const PrismName& name, const Vector3d* x, Prism* prism, double outside) {
+               const PrismName& name, Prism* prism) {
   const PlacedMesh& of_edge = name.edge_is_of_a ? pair.a() : pair.b();
   const PlacedMesh& of_face = name.edge_is_of_a ? pair.b() : pair.a();
   const ContactBody::Edge& edge = (name.edge_is_of_a ? a : b).edge(name.edge);
@@ -74,10 +55,6 @@ bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
   const Vector3d* const face[] = {&of_face.points[corners[0]], &of_face.points[corners[1]],
                                   &of_face.points[corners[2]]};
   const FacePlane& plane = of_face.planes[name.face];
-  // Most prisms are asked about a point that one of their planes leaves out.
-  if (x != nullptr && !Passes(tail - sign * *x, head - sign * *x, plane.normal, face, outside)) {
-    return false;
-  }
   const Vector3d middle = sign * (0.5 * (tail + head) - (*face[0] + *face[1] + *face[2]) / 3.0);
   prism->name = name;
   const Vector3d along = head - tail;

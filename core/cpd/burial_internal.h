@@ -46,10 +46,9 @@ struct BurialBall {
 // The facet whose plane bounds a prism.
 SumFacet FacetOf(const MeshPair& pair, const PrismName& name, int plane);
 
-// The prism, if x lies in it or outside of it by no more than `outside`, or without regard to x if
-// that is null; false also where rounding leaves nothing of it.
+// The prism; false where rounding leaves nothing of it.
 bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
-               const PrismName& name, const Eigen::Vector3d* x, Prism* prism, double outside = 0.0);
+               const PrismName& name, Prism* prism);
 
 // The prisms met so far. Those of the last kWindow are searched, eight at a time.
 class PrismList {

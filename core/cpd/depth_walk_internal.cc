@@ -4,12 +4,16 @@
 // edge passes through a face, and their prism holds x. A prism at hand that x lies on the wall of
 // is such a corner, so to find a better one takes a look at what is next to it instead of a
 // membership.
+#include <Eigen/Core>
 #include <algorithm>
 
 #include "touchstone/core/cpd/depth_searcher_internal.h"
+#include "touchstone/core/cpd/passage_internal.h"
 
 namespace touchstone::internal {
 namespace {
+
+using Eigen::Vector3d;
 
 // Measured on the paper's scenes: 3 to 8 looks and depths and distances from 2^-12 to 2^-5 do as
 // well.
@@ -18,23 +22,36 @@ constexpr double kDeepEnough = 0x1p-9;  // of x in a prism that ends the walk
 constexpr double kNextTo = 0x1p-8;      // of x to a prism that the walk may go through first
 constexpr std::size_t kMostCorners = 32;
 
-// Calls visit(name) for what may be the next corner: from an edge and a face, the curve goes on
-// through the faces on both sides of the edge, to another edge of theirs or one of the face's.
-// Where x lies on the wall of the face's side, also past it.
+// Calls visit(name, margin of x) for what the next corner is: from an edge and a face, the curve
+// goes on through the faces on both sides of the edge, to another edge of theirs or one of the
+// face's. Where x may lie on the wall of the face's side, also past it.
 template <class Visit>
-void VisitNext(const MeshPair& pair, const PrismName& name, const Visit& visit) {
-  const TriangleMesh& of_edge = (name.edge_is_of_a ? pair.a() : pair.b()).mesh;
-  const TriangleMesh& of_face = (name.edge_is_of_a ? pair.b() : pair.a()).mesh;
-  const int first = of_edge.half_edge_of(name.edge);
-  for (const int h : {first, of_edge.twin(first)}) {
-    visit({name.edge_is_of_a, of_edge.edge_of(TriangleMesh::next(h)), name.face});
-    visit({name.edge_is_of_a, of_edge.edge_of(TriangleMesh::previous(h)), name.face});
-    for (int k = 0; k < 3; ++k) {
-      visit({!name.edge_is_of_a, of_face.edge_of(3 * name.face + k), TriangleMesh::face_of(h)});
-    }
+void VisitNext(const MeshPair& pair, const PrismName& name, const Vector3d& x, double outside,
+               const Visit& visit) {
+  const PlacedMesh& of_edge = name.edge_is_of_a ? pair.a() : pair.b();
+  const PlacedMesh& of_face = name.edge_is_of_a ? pair.b() : pair.a();
+  const TriangleMesh &edges = of_edge.mesh, &faces = of_face.mesh;
+  const Vector3d zero = Vector3d::Zero(), shift = name.edge_is_of_a ? x : -x;
+  const MovedFace face(of_face, name.face, shift);
+  const int first = edges.half_edge_of(name.edge);
+  for (const int h : {first, edges.twin(first)}) {
+    const int side_face = TriangleMesh::face_of(h);
+    const MovedFace beside(of_edge, side_face, zero);
+    VisitPassages(beside, h % 3 + 1, 2, face, outside, [&](int k, double margin) {
+      visit({name.edge_is_of_a, edges.edge_of(3 * side_face + k), name.face}, margin);
+    });
+    VisitPassages(face, 0, 3, beside, outside, [&](int k, double margin) {
+      visit({!name.edge_is_of_a, faces.edge_of(3 * name.face + k), side_face}, margin);
+    });
   }
+  if (outside == 0.0) return;
+  const MovedFace beside(of_edge, TriangleMesh::face_of(first), zero);
   for (int k = 0; k < 3; ++k) {
-    visit({name.edge_is_of_a, name.edge, TriangleMesh::face_of(of_face.twin(3 * name.face + k))});
+    const int past = TriangleMesh::face_of(faces.twin(3 * name.face + k));
+    VisitPassages(beside, first % 3, 1, MovedFace(of_face, past, shift), outside,
+                  [&](int, double margin) {
+                    visit({name.edge_is_of_a, name.edge, past}, margin);
+                  });
   }
 }
 
@@ -73,26 +90,25 @@ class Corners {
 
 }  // namespace
 
-using Eigen::Vector3d;
-
 int DepthSearcher::WalkFrom(int number, const Vector3d& x, double least) {
   const Prism& start = s_.prisms.prism(number);
   Corners corners({start.name, start.Margin(x)});
-  Prism best, next;
+  PrismName best = start.name;
   double deepest = least;
   for (int look = 0; look < kMostLooks && deepest < kDeepEnough; ++look) {
     const Corner* corner = corners.Take();
     if (corner == nullptr) break;
     // Next to the start x may be on the wall of all that there is, just outside of what goes on.
     const double outside = look == 0 ? kNextTo : 0.0;
-    VisitNext(pair_, corner->name, [&](const PrismName& name) {
-      if (corners.Has(name) || !MakePrism(pair_, a_, b_, name, &x, &next, outside)) return;
-      const double margin = next.Margin(x);
+    VisitNext(pair_, corner->name, x, outside, [&](const PrismName& name, double margin) {
+      if (corners.Has(name)) return;
       corners.Add(name, margin);
-      if (margin > deepest) deepest = margin, best = next;
+      if (margin > deepest) deepest = margin, best = name;
     });
   }
-  return deepest > least ? AddPrism(best) : -1;
+  Prism prism;
+  if (!(deepest > least) || !MakePrism(pair_, a_, b_, best, &prism)) return -1;
+  return prism.Margin(x) > least ? AddPrism(prism) : -1;
 }
 
 }  // namespace touchstone::internal

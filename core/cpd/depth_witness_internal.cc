@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "touchstone/core/cpd/depth_searcher_internal.h"
+#include "touchstone/core/cpd/passage_internal.h"
 #include "touchstone/core/mesh/inner_balls.h"
 
 namespace touchstone::internal {
@@ -26,7 +27,7 @@ void DepthSearcher::RecallWitnesses() {
     const TriangleMesh& of_edge = (name.edge_is_of_a ? pair_.a() : pair_.b()).mesh;
     const TriangleMesh& of_face = (name.edge_is_of_a ? pair_.b() : pair_.a()).mesh;
     if (name.edge >= of_edge.edge_count() || name.face >= of_face.face_count()) continue;
-    if (MakePrism(pair_, a_, b_, name, nullptr, &prism)) AddPrism(prism);
+    if (MakePrism(pair_, a_, b_, name, &prism)) AddPrism(prism);
   }
 }
 
@@ -57,19 +58,20 @@ double DepthSearcher::AddWitness(const Vector3d& x, int face_a, int face_b) {
     return 0.0;
   }
   AddBall(&x, face_a, face_b);
-  double best = 0.0;
-  Prism prism, best_prism;
-  for (int k = 0; k < 6; ++k) {
-    const bool is_of_a = k < 3;
-    const TriangleMesh& mesh = (is_of_a ? pair_.a() : pair_.b()).mesh;
-    const PrismName name = {is_of_a, mesh.edge_of(3 * (is_of_a ? face_a : face_b) + k % 3),
-                            is_of_a ? face_b : face_a};
-    if (!MakePrism(pair_, a_, b_, name, &x, &prism)) continue;
-    const double margin = prism.Margin(x);
-    if (margin > best) best = margin, best_prism = prism;
-  }
-  if (best > 0.0) AddPrism(best_prism);
-  return best;
+  const MovedFace p(pair_.a(), face_a, Vector3d::Zero()), q(pair_.b(), face_b, x);
+  double most = 0.0;
+  PrismName best;
+  VisitPassages(p, 0, 3, q, 0.0, [&](int k, double margin) {
+    if (margin > most) most = margin, best = {true, a_.mesh().edge_of(3 * face_a + k), face_b};
+  });
+  VisitPassages(q, 0, 3, p, 0.0, [&](int k, double margin) {
+    if (margin > most) most = margin, best = {false, b_.mesh().edge_of(3 * face_b + k), face_a};
+  });
+  Prism prism;
+  if (!(most > 0.0) || !MakePrism(pair_, a_, b_, best, &prism)) return 0.0;
+  const double margin = prism.Margin(x);
+  if (margin > 0.0) AddPrism(prism);
+  return std::max(0.0, margin);
 }
 
 void DepthSearcher::AddClearance(const Vector3d& x) {
