@@ -239,13 +239,7 @@ FeatureTree VertexTree(const TriangleMesh& mesh, const GaussMap& map) {
     const VertexKind kind = map.vertex_kind(v);
     if (kind != VertexKind::kCorner && kind != VertexKind::kSpecial) continue;
     bounds[v] = {.centre = mesh.vertex(v), .cone = map.vertex_cone(v)};
-    const auto around = map.essential_neighbors(v);
-    for (std::size_t k = 0; k < around.size(); ++k) {
-      const Vector3d first = (mesh.vertex(around[k]) - mesh.vertex(v)).normalized(),
-                     second = (mesh.vertex(around[(k + 1) % around.size()]) - mesh.vertex(v))
-                                  .normalized();
-      bounds[v].rays.push_back(first.cross(second).normalized());
-    }
+    bounds[v].rays.assign(map.rays(v).begin(), map.rays(v).end());
     items.push_back(v);
   }
   return FeatureTree(bounds, std::move(items));

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "touchstone/core/base/orientation.h"
 
@@ -13,22 +14,33 @@ namespace {
 using Eigen::Vector3d;
 
 // Cones are widened by this much (cosine and angle alike): far more than the rounding of unit
-// vectors, which is below 2^-40 where it is trusted.
+// vectors, which is below 2^-40.
 constexpr double kPadding = 1e-9;
 
-// The narrowest cone round the mean of unit vectors, if that is less than a half-space: then it
-// holds all their convex combinations.
+// A narrow cone round unit vectors, if that is less than a half-space: then it holds all their
+// convex combinations. The axis goes from their mean towards whichever is furthest off, by smaller
+// and smaller steps (Bădoiu and Clarkson 2003).
 NormalCone ConeOf(std::span<const Vector3d> directions) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3d& direction : directions) sum += direction;
-  const double length = sum.norm();
-  if (length < 1e-3) return {};
-  const Vector3d axis = sum / length;
-  double cosine = 1.0;
-  for (const Vector3d& direction : directions) cosine = std::min(cosine, axis.dot(direction));
-  if (cosine < 1e-3) return {};
+  constexpr int kSteps = 32;
+  Vector3d axis = Vector3d::Zero();
+  for (const Vector3d& direction : directions) axis += direction;
+  NormalCone best;
+  for (int step = 0; step < kSteps; ++step) {
+    const double length = axis.norm();
+    if (length < 1e-3) break;
+    axis /= length;
+    double cosine = 1.0;
+    Vector3d furthest = axis;
+    for (const Vector3d& direction : directions) {
+      const double along = axis.dot(direction);
+      if (along < cosine) cosine = along, furthest = direction;
+    }
+    if (cosine > best.cosine) best = {axis, cosine};
+    axis += furthest / (step + 2.0);
+  }
+  if (best.cosine < 1e-3) return {};
   // cos(θ + δ) >= cos θ - δ.
-  return {axis, std::max(-1.0, cosine - kPadding)};
+  return {best.axis, best.cosine - kPadding};
 }
 
 }  // namespace
@@ -40,9 +52,11 @@ class GaussMap::Builder {
 
   Data Build() {
     data_.neighbor_begin.push_back(0);
+    data_.ray_begin.push_back(0);
     for (int v = 0; v < mesh_.vertex_count(); ++v) {
       AddVertex(v);
       data_.neighbor_begin.push_back(static_cast<int>(data_.neighbors.size()));
+      data_.ray_begin.push_back(static_cast<int>(data_.rays.size()));
     }
     data_.edge_cones.resize(mesh_.edge_count());
     for (int e = 0; e < mesh_.edge_count(); ++e) AddEdge(e);
@@ -50,6 +64,12 @@ class GaussMap::Builder {
   }
 
  private:
+  // The cross product of the edges to two neighbours.
+  using Ray = std::pair<int, int>;
+  static Ray RayAfter(const std::vector<int>& bounds, std::size_t i) {
+    return {bounds[i], bounds[(i + 1) % bounds.size()]};
+  }
+
   // The sign of det(a - v, b - v, c - v).
   int Side(int v, int a, int b, int c) const {
     return Orientation::ExactSide(orientation_.point(v), orientation_.point(a),
@@ -63,15 +83,19 @@ class GaussMap::Builder {
     NormalCone cone;
     if (!IsWithin(v)) {
       std::vector<int> bounds;
-      kind = FindCone(v, neighbors, &bounds);
+      std::vector<Ray> rays;
+      kind = FindCone(v, neighbors, &bounds, &rays);
       if (kind == VertexKind::kCorner) {
         if (IsDent(v, bounds[0])) {
           kind = VertexKind::kNever;
+          rays.clear();
         } else {
-          cone = ConeOfBounds(v, bounds);
           data_.neighbors.insert(data_.neighbors.end(), bounds.begin(), bounds.end());
         }
       }
+      for (const Ray& ray : rays) data_.rays.push_back(DirectionOf(v, ray));
+      const std::size_t begin = data_.ray_begin[v];
+      if (!rays.empty()) cone = ConeOf(std::span(data_.rays).subspan(begin));
     }
     data_.vertex_kinds.push_back(kind);
     data_.vertex_cones.push_back(cone);
@@ -88,7 +112,8 @@ class GaussMap::Builder {
 
   // The cone {n : n.(w - v) <= 0}, as the cyclic list of neighbours whose planes bound it, such
   // that its extreme rays are w_i x w_{i+1} (less v), cut down by one neighbour after the other.
-  VertexKind FindCone(int v, std::vector<int> neighbors, std::vector<int>* bounds) const {
+  VertexKind FindCone(int v, std::vector<int> neighbors, std::vector<int>* bounds,
+                      std::vector<Ray>* rays) const {
     // Three that are not coplanar to begin with.
     std::size_t second = 1, third = 2;
     while (orientation_.IsCollinear(v, neighbors[0], neighbors[second])) ++second;
@@ -100,14 +125,15 @@ class GaussMap::Builder {
       std::swap(neighbors[0], neighbors[1]);
     bounds->assign(neighbors.begin(), neighbors.begin() + 3);
     for (std::size_t k = 3; k < neighbors.size(); ++k) {
-      const VertexKind kind = Cut(v, neighbors[k], bounds);
+      const VertexKind kind = Cut(v, neighbors[k], bounds, rays);
       if (kind != VertexKind::kCorner) return kind;
     }
+    for (std::size_t i = 0; i < bounds->size(); ++i) rays->push_back(RayAfter(*bounds, i));
     return VertexKind::kCorner;
   }
 
-  // Cuts the cone by n.(w - v) <= 0.
-  VertexKind Cut(int v, int w, std::vector<int>* bounds) const {
+  // Cuts the cone by n.(w - v) <= 0. Where no inside is left, the rays that may be.
+  VertexKind Cut(int v, int w, std::vector<int>* bounds, std::vector<Ray>* rays) const {
     const std::size_t size = bounds->size();
     // Ray i lies between bounds i and i + 1.
     std::vector<int> sides(size);
@@ -118,7 +144,12 @@ class GaussMap::Builder {
     const int greatest = *std::max_element(sides.begin(), sides.end());
     if (greatest <= 0) return VertexKind::kCorner;  // nothing to cut
     if (least > 0) return VertexKind::kNever;
-    if (least == 0) return VertexKind::kSpecial;  // a ray or a side is left
+    if (least == 0) {  // a ray or a side is left
+      for (std::size_t i = 0; i < size; ++i) {
+        if (sides[i] == 0) rays->push_back(RayAfter(*bounds, i));
+      }
+      return VertexKind::kSpecial;
+    }
     // Rays beyond go; a bound between two of them goes too. The new one stands between the bounds
     // on which the cut begins and ends. A ray in the plane itself stays a ray, so the bound whose
     // other ray goes is no longer needed.
@@ -151,19 +182,14 @@ class GaussMap::Builder {
     return false;
   }
 
-  NormalCone ConeOfBounds(int v, const std::vector<int>& bounds) const {
-    std::vector<Vector3d> rays;
-    for (std::size_t i = 0; i < bounds.size(); ++i) {
-      const Vector3d a = (mesh_.vertex(bounds[i]) - mesh_.vertex(v)).normalized();
-      const Vector3d b =
-          (mesh_.vertex(bounds[(i + 1) % bounds.size()]) - mesh_.vertex(v)).normalized();
-      const Vector3d ray = a.cross(b);
-      const double length = ray.norm();
-      // Shorter ones may be off by more than 2^-40; differences of far vertices are exact enough.
-      if (!(length > 1e-3)) return {};
-      rays.push_back(ray / length);
-    }
-    return ConeOf(rays);
+  // Within 2^-40.
+  Vector3d DirectionOf(int v, const Ray& ray) const {
+    const auto& [first, second] = ray;
+    const Vector3d a = (mesh_.vertex(first) - mesh_.vertex(v)).normalized();
+    const Vector3d b = (mesh_.vertex(second) - mesh_.vertex(v)).normalized();
+    const Vector3d cross = a.cross(b);
+    const double length = cross.norm();
+    return length > 1e-3 ? Vector3d(cross / length) : orientation_.UnitNormal({v, first, second});
   }
 
   void AddEdge(int e) {

@@ -55,8 +55,13 @@ class GaussMap {
     return {data_->neighbors.data() + data_->neighbor_begin[v],
             data_->neighbors.data() + data_->neighbor_begin[v + 1]};
   }
-  // A bound on the vertex's cone, or on a convex edge's arc. Vertices that are kNever or kWithin
-  // and edges that are not convex have none that means anything.
+  // Directions that span the cone of a kCorner, or hold that of a kSpecial between them: unit
+  // vectors within 2^-40 of the exact ones.
+  std::span<const Eigen::Vector3d> rays(int v) const {
+    return {data_->rays.data() + data_->ray_begin[v], data_->rays.data() + data_->ray_begin[v + 1]};
+  }
+  // A bound on the cone of a vertex that is kCorner or kSpecial, or on a convex edge's arc. Others
+  // have none that means anything.
   const NormalCone& vertex_cone(int v) const { return data_->vertex_cones[v]; }
   const NormalCone& edge_cone(int e) const { return data_->edge_cones[e]; }
 
@@ -66,7 +71,8 @@ class GaussMap {
  private:
   struct Data {
     std::vector<VertexKind> vertex_kinds;
-    std::vector<int> neighbor_begin, neighbors;
+    std::vector<int> neighbor_begin, neighbors, ray_begin;
+    std::vector<Eigen::Vector3d> rays;
     std::vector<NormalCone> vertex_cones, edge_cones;
     std::vector<Arc> arcs;
   };
