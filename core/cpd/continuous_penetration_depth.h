@@ -82,7 +82,11 @@ struct ContinuousDepthResult {
   bool branch_ended = false;           // the branch of the answer before was not found again
   bool combinatorics_changed = false;  // the solution lies on another facet than before
   int solutions = 0;                   // found in the last local sum, or on the triangles kept
-  double normal_radius = 0.0;          // of the mean normals there; 0 with others
+  // Proven, of the triangles that were made: none of them has a solution nearer to the one before,
+  // where the branch goes on, or to the origin. On triangles kept, only the solution's own is
+  // asked. False where solutions meet, and for mean normals.
+  bool is_nearest = false;
+  double normal_radius = 0.0;  // of the mean normals there; 0 with others
   // The largest angle between the normals at the corners of the solution's triangle, in radians:
   // Theorem 3 supposes no more than about ten degrees.
   double corner_angle = 0.0;

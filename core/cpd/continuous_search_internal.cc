@@ -67,7 +67,7 @@ bool ContinuousSolver::Project() {
   PhongPoint chosen;
   bool continues = false;
   if (options_.track_branch && last_ && last_->was_found) {
-    continues = Nearest(last_->translation, BranchReach(), !is_near_only_, &chosen);
+    continues = Nearest(last_->translation, BranchReach(), &chosen);
   }
   if (!continues && is_near_only_) {
     is_near_only_ = false;
@@ -75,7 +75,7 @@ bool ContinuousSolver::Project() {
     radius_ = std::max({radius_, options_.ball_ratio * at_.norm(), least_radius_});
     return false;
   }
-  if (!continues && !Nearest(Vector3d::Zero(), 1e300, true, &chosen)) {
+  if (!continues && !Nearest(Vector3d::Zero(), 1e300, &chosen)) {
     MoveOn();
     return false;
   }
@@ -100,7 +100,7 @@ std::shared_ptr<const PatchShape> ContinuousSolver::PatchAround(int triangle) {
   return shape;
 }
 
-bool ContinuousSolver::Nearest(const Vector3d& p, double reach, bool find_all, PhongPoint* chosen) {
+bool ContinuousSolver::Nearest(const Vector3d& p, double reach, PhongPoint* chosen) {
   order_.clear();
   double best = reach < 1e150 ? reach * reach : std::numeric_limits<double>::infinity();
   for (int t = 0; t < result_.local_triangles; ++t) {
@@ -110,13 +110,16 @@ bool ContinuousSolver::Nearest(const Vector3d& p, double reach, bool find_all, P
   std::sort(order_.begin(), order_.end());
   PhongOptions phong;
   phong.interpolation = options_.interpolation;
-  phong.find_all = find_all;
+  phong.find_all = true;
   bool is_found = false;
   result_.solutions = 0;
+  result_.is_nearest = true;
   for (const auto& [squared, t] : order_) {
     if (squared > best) break;
     points_.clear();
-    result_.solutions += ProjectOntoTriangle(surface_, t, phong, &points_);
+    const PhongCount count = ProjectOntoTriangle(surface_, t, phong, &points_);
+    result_.solutions += count.points;
+    result_.is_nearest = result_.is_nearest && count.is_complete;
     for (const PhongPoint& point : points_) {
       const double distance = (point.position - p).squaredNorm();
       if (distance > best) continue;

@@ -186,9 +186,9 @@ bool ContinuousSolver::FollowPatch() {
   surface_ = patch_.Surface(pair_, *shape, options_.weights);
   PhongOptions phong;
   phong.interpolation = options_.interpolation;
-  phong.begin_at = last_->at;
+  phong.find_all = true;
   points_.clear();
-  ProjectOntoTriangle(surface_, 0, phong, &points_);
+  result_.is_nearest = ProjectOntoTriangle(surface_, 0, phong, &points_).is_complete;
   const PhongPoint* chosen = nullptr;
   double best = BranchReach();
   for (const PhongPoint& point : points_) {

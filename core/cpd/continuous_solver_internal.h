@@ -62,7 +62,7 @@ class ContinuousSolver {
   bool Project();
   std::shared_ptr<const PatchShape> PatchAround(int triangle);
   // The solution nearest to p, within `reach`, of all local triangles, nearest ones first.
-  bool Nearest(const Eigen::Vector3d& p, double reach, bool find_all, PhongPoint* chosen);
+  bool Nearest(const Eigen::Vector3d& p, double reach, PhongPoint* chosen);
   // No solution: on to the triangle that comes nearest to one, or a larger ball if that is this
   // one.
   void MoveOn();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "touchstone/core/cpd/phong_search_internal.h"
+
 namespace touchstone {
 namespace {
 
@@ -13,6 +15,13 @@ using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using internal::AtCorner;
+using internal::FindZeros;
+using internal::Quartics;
+using internal::QuarticZero;
+using internal::QuarticZeros;
+
+Vector3d Middle() { return Vector3d::Constant(1.0 / 3.0); }
 
 // λ may be below zero by as much as roundings leave it on a side of two triangles: each finds it.
 constexpr double kOnSide = 1e-9;
@@ -70,30 +79,19 @@ class Projection {
     is_outward_ = face_normal_.dot(corners_.col(0)) > 0.0;
   }
 
-  int Find(std::vector<PhongPoint>* points) {
-    if (!is_outward_) return 0;
-    const std::size_t begin = points->size();
-    if (options_.begin_at) Begin(*options_.begin_at, begin, points);
-    Begin({1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}, begin, points);
+  PhongCount Find(std::vector<PhongPoint>* points) {
+    // An area that is not finite, or of none.
+    if (!is_outward_) return {0, true};
+    begin_ = points->size();
+    points_ = points;
+    bool is_complete = false;
     if (options_.find_all) {
-      // Barycentres of the triangles with corners at multiples of 1/4, upright and inverted.
-      for (int i = 0; i < 4; ++i) {
-        for (int j = 0; i + j < 4; ++j) {
-          Begin(Vector3d(3 * i + 1, 3 * j + 1, 12 - 3 * i - 3 * j - 2) / 12.0, begin, points);
-          if (i + j < 3) {
-            Begin(Vector3d(3 * i + 2, 3 * j + 2, 12 - 3 * i - 3 * j - 4) / 12.0, begin, points);
-          }
-        }
-      }
-      // And on the sides: what lies next to one is overshot from within.
-      for (int k = 0; k < 3; ++k) {
-        for (int i = 1; i < 4; ++i) {
-          Begin(0.25 * i * Vector3d::Unit(k) + (1.0 - 0.25 * i) * Vector3d::Unit((k + 1) % 3),
-                begin, points);
-        }
-      }
+      is_complete = FindAll();
+    } else {
+      if (options_.begin_at) Begin(*options_.begin_at);
+      Begin(Middle());
     }
-    return static_cast<int>(points->size() - begin);
+    return {static_cast<int>(points->size() - begin_), is_complete};
   }
 
  private:
@@ -117,54 +115,178 @@ class Projection {
     return here;
   }
 
-  void Begin(Vector3d at, std::size_t begin, std::vector<PhongPoint>* points) const {
+  // The solution that Newton comes to from λ, if any.
+  bool Newton(Vector3d* at, Linearised* here) const {
     for (int i = 0; i < options_.newton_limit; ++i) {
-      const Linearised here = At(at);
-      if (!here.value.allFinite() || !here.jacobian.allFinite()) return;
-      const double determinant = here.jacobian.determinant();
-      const double residual = SineTo(here.basis, here.position);
-      const double columns = here.jacobian.col(0).norm() * here.jacobian.col(1).norm();
-      const bool is_singular = !(std::abs(determinant) > kSingular * columns);
-      if (residual < kConverged) {
-        if (at.minCoeff() >= -kOnSide) Add(at, here, is_singular, begin, points);
-        return;
-      }
-      if (determinant == 0.0) return;
+      *here = At(*at);
+      if (!here->value.allFinite() || !here->jacobian.allFinite()) return false;
+      if (SineTo(here->basis, here->position) < kConverged) return true;
+      const double determinant = here->jacobian.determinant();
+      if (determinant == 0.0) return false;
       Matrix2d adjugate;
-      adjugate << here.jacobian(1, 1), -here.jacobian(0, 1), -here.jacobian(1, 0),
-          here.jacobian(0, 0);
-      Vector2d step = -(adjugate * here.value) / determinant;
+      adjugate << here->jacobian(1, 1), -here->jacobian(0, 1), -here->jacobian(1, 0),
+          here->jacobian(0, 0);
+      Vector2d step = -(adjugate * here->value) / determinant;
       // No further than a triangle's size, so that the way back stays open.
       const double length = step.norm();
-      if (!(length < 1e6)) return;
+      if (!(length < 1e6)) return false;
       if (length > 0.5) step *= 0.5 / length;
-      at[0] += step[0];
-      at[1] += step[1];
-      at[2] = 1.0 - at[0] - at[1];
-      if (at.minCoeff() < -1.0) return;  // the extended plane has its own solutions
+      (*at)[0] += step[0];
+      (*at)[1] += step[1];
+      (*at)[2] = 1.0 - (*at)[0] - (*at)[1];
+      if (at->minCoeff() < -1.0) return false;  // the extended plane has its own solutions
+    }
+    return false;
+  }
+
+  void Begin(Vector3d at) {
+    Linearised here;
+    if (!Newton(&at, &here)) return;
+    for (std::size_t i = begin_; i < points_->size(); ++i) {
+      if (((*points_)[i].at - at).norm() < kSame) return;
+    }
+    Add(at, here);
+  }
+
+  bool FindAll() {
+    const double size = corners_.colwise().stableNorm().maxCoeff();
+    std::array<AtCorner, 3> at_corners = {};
+    Quartics quartics;
+    if (options_.interpolation == PhongInterpolation::kNormals) {
+      quartics = OfNormals(size);
+    } else {
+      quartics = OfBases(size);
+      for (int k = 0; k < 3; ++k) {
+        at_corners[k] = AtCorner::kVanishes;
+        if (!(SineTo(basis_.OnSide(k, 0), corners_.col(k)) < kConverged)) continue;
+        at_corners[k] = AtCorner::kVanishesTwice;
+        AddCorner(k);
+      }
+    }
+    const QuarticZeros zeros = FindZeros(quartics, at_corners);
+    bool is_complete = zeros.is_complete;
+    for (int i = 0; i < zeros.count; ++i) {
+      const QuarticZero& zero = zeros.zeros[i];
+      Vector3d at = zero.at;
+      if (!zero.is_simple) {
+        Begin(at);
+        continue;
+      }
+      Linearised here;
+      // The blended rows may be no basis there, or one so slanted that roundings decide.
+      if (Newton(&at, &here) && (at - zero.at).norm() < kSame) {
+        Add(at, here);
+      } else {
+        is_complete = false;
+      }
+    }
+    if (!is_complete) BeginEverywhere();
+    return is_complete;
+  }
+
+  // From the barycentres of the 16 triangles with corners at multiples of 1/4, and on the sides.
+  void BeginEverywhere() {
+    Begin(Middle());
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; i + j < 4; ++j) {
+        Begin(Vector3d(3 * i + 1, 3 * j + 1, 12 - 3 * i - 3 * j - 2) / 12.0);
+        if (i + j < 3) Begin(Vector3d(3 * i + 2, 3 * j + 2, 12 - 3 * i - 3 * j - 4) / 12.0);
+      }
+    }
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 1; i < 4; ++i) {
+        Begin(0.25 * i * Vector3d::Unit(k) + (1.0 - 0.25 * i) * Vector3d::Unit((k + 1) % 3));
+      }
     }
   }
 
-  void Add(const Vector3d& at, const Linearised& here, bool is_singular, std::size_t begin,
-           std::vector<PhongPoint>* points) const {
-    if (!(face_normal_.dot(here.position) > 0.0)) return;
-    for (std::size_t i = begin; i < points->size(); ++i) {
-      if (((*points)[i].at - at).norm() < kSame) return;
+  // Σ_k λ_k λ_k+1 Ψ(λ) q(λ) / size, with Ψ as in TangentBasis::At. A coefficient is at most 1/2,
+  // and off by 2^-51: two inner products of 3 roundings each, their sum, and two quotients.
+  Quartics OfBases(double size) const {
+    Quartics quartics;
+    const auto set = [&](const std::array<int, 3>& powers, const Vector2d& value) {
+      quartics.Set(powers[0], powers[2], value / size);
+    };
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3, m = (k + 2) % 3;
+      const auto q = [&](int corner) -> Vector3d { return corners_.col(corner); };
+      const Basis &near = basis_.OnSide(k, 0), &far = basis_.OnSide(k, 1);
+      std::array<int, 3> powers = {};
+      powers[k] = 4;
+      set(powers, Vector2d::Zero());
+      powers[k] = 3, powers[l] = 1;
+      set(powers, near * q(k) / 4.0);
+      powers[k] = 2, powers[l] = 2;
+      set(powers, (far * q(k) + near * q(l)) / 6.0);
+      powers[k] = 1, powers[l] = 3;
+      set(powers, far * q(l) / 4.0);
+      powers[k] = 2, powers[l] = 1, powers[m] = 1;
+      set(powers, (near * q(m) + basis_.OnSide(m, 1) * q(l)) / 12.0);
     }
+    return quartics;
+  }
+
+  // n(λ) x q(λ) / size along the triangle's plane: it is across q, which is not, so all of it is
+  // zero where that is. Of degree 2, times (Σ λ_k)².
+  Quartics OfNormals(double size) const {
+    Basis along;
+    const Vector3d up = face_normal_.stableNormalized();
+    along.row(0) = (corners_.col(1) - corners_.col(0)).stableNormalized();
+    along.row(1) = up.cross(along.row(0).transpose());
+    std::array<std::array<Vector2d, 3>, 3> products;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const Vector3d q = corners_.col(j) / size;
+        products[i][j] = along * basis_.NormalAt(i).cross(q);
+      }
+    }
+    Quartics quartics;
+    for (int i = 0; i <= 4; ++i) {
+      for (int k = 0; i + k <= 4; ++k) {
+        // A mean over the ordered pairs of different ones of the four factors λ_i λ_i.. λ_k λ_k..
+        const std::array<int, 3> powers = {i, 4 - i - k, k};
+        Vector2d sum = Vector2d::Zero();
+        for (int p = 0; p < 3; ++p) {
+          for (int q = 0; q < 3; ++q) {
+            sum += static_cast<double>(powers[p] * (powers[q] - (p == q))) * products[p][q];
+          }
+        }
+        quartics.Set(i, k, sum / 12.0);
+      }
+    }
+    return quartics;
+  }
+
+  PhongPoint PointAt(const Vector3d& at, const Basis& basis) const {
     PhongPoint point;
     point.triangle = triangle_;
     point.at = at.cwiseMax(0.0);
     point.at /= point.at.sum();
     point.position = corners_ * point.at;
-    point.residual = SineTo(here.basis, point.position);
-    if (!is_singular) {
+    point.residual = SineTo(basis, point.position);
+    return point;
+  }
+
+  void AddCorner(int k) {
+    PhongPoint point = PointAt(Vector3d::Unit(k), basis_.OnSide(k, 0));
+    point.multiplicity = 0;
+    if (face_normal_.dot(point.position) > 0.0) points_->push_back(point);
+  }
+
+  void Add(const Vector3d& at, const Linearised& here) {
+    if (at.minCoeff() < -kOnSide || !(face_normal_.dot(here.position) > 0.0)) return;
+    PhongPoint point = PointAt(at, here.basis);
+    const double columns = here.jacobian.col(0).norm() * here.jacobian.col(1).norm();
+    if (std::abs(here.jacobian.determinant()) > kSingular * columns) {
       // F(λ, o) = Ψ(λ)(q(λ) - o): dλ = J^-1 Ψ do.
       Eigen::Matrix<double, 3, 2> sides;
       sides.col(0) = corners_.col(0) - corners_.col(2);
       sides.col(1) = corners_.col(1) - corners_.col(2);
       point.rate = sides * (here.jacobian.inverse() * here.basis);
+    } else {
+      point.multiplicity = 0;
     }
-    points->push_back(point);
+    points_->push_back(point);
   }
 
   const int triangle_;
@@ -173,6 +295,8 @@ class Projection {
   Matrix3d corners_;
   Vector3d face_normal_;
   bool is_outward_;
+  std::vector<PhongPoint>* points_ = nullptr;
+  std::size_t begin_ = 0;  // where this triangle's begin
 };
 
 }  // namespace
@@ -255,8 +379,8 @@ Basis TangentBasis::At(const Vector3d& at, std::array<Basis, 3>* derivatives) co
   return basis;
 }
 
-int ProjectOntoTriangle(const PhongSurface& surface, int triangle, const PhongOptions& options,
-                        std::vector<PhongPoint>* points) {
+PhongCount ProjectOntoTriangle(const PhongSurface& surface, int triangle,
+                               const PhongOptions& options, std::vector<PhongPoint>* points) {
   return Projection(surface, triangle, options).Find(points);
 }
 
@@ -287,7 +411,7 @@ std::vector<PhongPoint> ProjectByBreadthFirst(const PhongSurface& surface, int f
   std::vector<int> queue = {from};
   is_seen[from] = 1;
   for (std::size_t head = 0; head < queue.size(); ++head) {
-    if (ProjectOntoTriangle(surface, queue[head], options, &points) > 0) return points;
+    if (ProjectOntoTriangle(surface, queue[head], options, &points).points > 0) return points;
     for (const int next : surface.neighbors[queue[head]]) {
       if (next < 0 || is_seen[next] != 0) continue;
       is_seen[next] = 1;

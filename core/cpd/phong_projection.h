@@ -46,10 +46,10 @@ enum class PhongInterpolation : std::uint8_t {
 
 struct PhongOptions {
   PhongInterpolation interpolation = PhongInterpolation::kTangentBasis;
-  // Newton begins at the barycentre only, as in the paper; or also at those of the 16 triangles of
-  // two rounds of midpoints, and on the sides, which finds solutions beside the first.
+  // Newton from the barycentre, as in the paper; or every solution, by a subdivision of the
+  // triangle that shows of each part that it holds none or one.
   bool find_all = false;
-  // Where Newton begins first, if anywhere but there.
+  // Where Newton begins first, if not all are looked for.
   std::optional<Eigen::Vector3d> begin_at = std::nullopt;
   int newton_limit = 20;
 };
@@ -65,6 +65,17 @@ struct PhongPoint {
   // The rate of q with a motion of the origin, 3 x 3; nothing at a multiple solution, where the
   // Jacobian vanishes.
   std::optional<Eigen::Matrix3d> rate;
+  // Of 1: simple. 0: not told. It is at a corner, where Ψ has no derivative; or solutions meet, or
+  // come nearer to each other than some 2^-19 of the triangle. Newton alone tells by the Jacobian.
+  int multiplicity = 1;
+};
+
+struct PhongCount {
+  int points = 0;  // appended
+  // Proven: every solution on the triangle, with λ >= -1e-9, is one of these. The proof is about
+  // Ψ as its rows at corners are in doubles, and bounds all roundings from there on. Where it fails
+  // (solutions that meet, or a curve of them) other starts of Newton's are tried too.
+  bool is_complete = false;
 };
 
 // The interpolated tangent plane of one triangle.
@@ -81,18 +92,20 @@ class TangentBasis {
   using Basis = Eigen::Matrix<double, 2, 3>;
   // Ψ(λ), up to a positive factor, and its derivatives with each λ_i.
   Basis At(const Eigen::Vector3d& at, std::array<Basis, 3>* derivatives) const;
+  // The basis that corner k + end has on side k, from corner k to k + 1. None with kNormals.
+  const Basis& OnSide(int k, int end) const { return sides_[k][end]; }
+  const Eigen::Vector3d& NormalAt(int corner) const { return normals_[corner]; }
 
  private:
   bool by_normals_;
   std::array<Eigen::Vector3d, 3> normals_;
-  // sides_[k][e]: the basis that corner k + e (mod 3) has on side k, from corner k to k + 1.
   std::array<std::array<Basis, 2>, 3> sides_;
 };
 
-// Appends the Phong projections of the origin onto one triangle. Returns how many.
-// Complexity: O(1). No errors; needles and vanishing normals have none.
-int ProjectOntoTriangle(const PhongSurface& surface, int triangle, const PhongOptions& options,
-                        std::vector<PhongPoint>* points);
+// Appends the Phong projections of the origin onto one triangle. Complexity: O(1). No errors;
+// needles and vanishing normals have none.
+PhongCount ProjectOntoTriangle(const PhongSurface& surface, int triangle,
+                               const PhongOptions& options, std::vector<PhongPoint>* points);
 
 // The sine of the angle between the barycentre, seen from the origin, and the normal there: how
 // nearly a triangle without a solution has one. The argmin of Algorithm 2, made a number.

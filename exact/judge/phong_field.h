@@ -96,31 +96,42 @@ Frame<T> TurnedTo(const Frame<T>& frame, const Frame<T>& to) {
   return {Minus(Times(c, frame[0]), Times(s, second)), Plus(Times(s, frame[0]), Times(c, second))};
 }
 
-// The normal, of any length and sign, of the tangent plane blended at λ from those at the corners.
+// The frames of corners k and k + 1 on the side between them, turned to agree there.
 template <class T>
-Triple<T> BlendedNormal(const std::array<Triple<T>, 3>& normals, const Triple<T>& at) {
+std::array<std::array<Frame<T>, 2>, 3> SideFrames(const std::array<Triple<T>, 3>& normals) {
   const Frame<T> first = FrameAcross(normals[0]);
   const std::array<Frame<T>, 3> corners = {first, TurnedTo(FrameAcross(normals[1]), first),
                                            TurnedTo(FrameAcross(normals[2]), first)};
+  std::array<std::array<Frame<T>, 2>, 3> sides;
+  for (int k = 0; k < 3; ++k) sides[k] = {corners[k], TurnedTo(corners[(k + 1) % 3], corners[k])};
+  return sides;
+}
+
+// Two rows that span the tangent plane blended at λ, but at corners, where they are zero.
+template <class T>
+Frame<T> BlendedRows(const std::array<std::array<Frame<T>, 2>, 3>& sides, const Triple<T>& at) {
   const Triple<T> zero = {T(0.0), T(0.0), T(0.0)};
   Frame<T> sum = {zero, zero};
-  T weights = T(0.0);
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
-    const Frame<T> other = TurnedTo(corners[l], corners[k]);
-    const T weight = at[k] * at[l];
-    weights = weights + weight;
     for (int row = 0; row < 2; ++row) {
-      const Triple<T> side = Plus(Times(at[k], corners[k][row]), Times(at[l], other[row]));
-      sum[row] = Plus(sum[row], Times(weight, side));
+      const Triple<T> side = Plus(Times(at[k], sides[k][0][row]), Times(at[l], sides[k][1][row]));
+      sum[row] = Plus(sum[row], Times(at[k] * at[l], side));
     }
   }
-  if (!(weights > T(0.0))) {  // at a corner
+  return sum;
+}
+
+// The normal, of any length and sign, of the tangent plane blended at λ from those at the corners.
+template <class T>
+Triple<T> BlendedNormal(const std::array<Triple<T>, 3>& normals, const Triple<T>& at) {
+  if (!(at[0] * at[1] + at[1] * at[2] + at[2] * at[0] > T(0.0))) {  // at a corner
     for (int k = 0; k < 3; ++k) {
       if (at[k] > T(0.5)) return normals[k];
     }
   }
-  return Outer(sum[0], sum[1]);
+  const Frame<T> rows = BlendedRows(SideFrames(normals), at);
+  return Outer(rows[0], rows[1]);
 }
 
 // ∫ (1 - |y - x|² / h²) n dy over what a ball round x holds of a triangle of unit normal n, by

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -15,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using Doubles = Triple<double>;
 
-constexpr int kStartsAlongSide = 5;
+constexpr int kQuarterings = 6;
 constexpr int kSteps = 30;
 constexpr double kDifference = 1e-7;  // in λ: the square root of roundings
 constexpr double kSolved = 1e-13;     // a few roundings; differences gain five digits a step
@@ -23,27 +24,81 @@ constexpr double kInside = 1e-6;      // in λ: solutions on sides are as well a
 
 Doubles ToTriple(const Vector3d& v) { return {v[0], v[1], v[2]}; }
 
+// All values of a formula, up to roundings.
+struct Interval {
+  double low = 0.0, high = 0.0;
+
+  Interval() = default;
+  explicit Interval(double x) : low(x), high(x) {}
+  Interval(double least, double most) : low(least), high(most) {}
+  bool Holds(double rounding) const { return !(low > rounding) && !(high < -rounding); }
+};
+Interval operator+(const Interval& a, const Interval& b) {
+  return {a.low + b.low, a.high + b.high};
+}
+Interval operator*(const Interval& a, const Interval& b) {
+  const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
+  return {std::min({p, q, r, s}), std::max({p, q, r, s})};
+}
+
 class TriangleSearch {
  public:
   TriangleSearch(const std::array<Doubles, 3>& corners, const std::array<Doubles, 3>& normals)
-      : corners_(corners), normals_(normals) {}
-
-  // The length of a projection shorter than `distance`.
-  std::optional<double> Nearer(double distance) const {
-    std::optional<double> found;
-    for (int i = 0; i < kStartsAlongSide; ++i) {
-      for (int j = 0; j < kStartsAlongSide; ++j) {
-        // A square of starts, folded into the triangle.
-        double u = (i + 0.5) / kStartsAlongSide, v = (j + 0.5) / kStartsAlongSide;
-        if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
-        const auto solved = Solve(u, v);
-        if (solved && *solved < distance) found = distance = *solved;
+      : corners_(corners), normals_(normals) {
+    const auto sides = SideFrames(normals);
+    for (int k = 0; k < 3; ++k) {
+      for (int end = 0; end < 2; ++end) {
+        for (int row = 0; row < 2; ++row) {
+          for (int i = 0; i < 3; ++i) sides_[k][end][row][i] = Interval(sides[k][end][row][i]);
+        }
       }
     }
-    return found;
+  }
+
+  // The length of a projection shorter than `distance`.
+  std::optional<double> Nearer(double distance) {
+    found_.reset();
+    distance_ = distance;
+    Look({0.0, 0.0}, 1.0, 0);
+    return found_;
   }
 
  private:
+  // The part of the triangle with right-angled corner (u, v) in λ_0, λ_1 and legs of this length,
+  // upright or, if it is below zero, inverted: cut into quarters where what of x lies along the
+  // tangent plane may vanish, and at the last solved from the middle.
+  void Look(const std::array<double, 2>& corner, double leg, int level) {
+    const auto& [u, v] = corner;
+    if (!MayVanish(u, v, leg)) return;
+    if (level == kQuarterings) {
+      const auto solved = Solve(u + leg / 3.0, v + leg / 3.0);
+      if (solved && *solved < distance_) found_ = distance_ = *solved;
+      return;
+    }
+    const double half = 0.5 * leg;
+    Look({u, v}, half, level + 1);
+    Look({u + half, v}, half, level + 1);
+    Look({u, v + half}, half, level + 1);
+    Look({u + half, v + half}, -half, level + 1);
+  }
+
+  bool MayVanish(double u, double v, double leg) const {
+    const auto range = [](double a, double b) { return Interval(std::min(a, b), std::max(a, b)); };
+    const Triple<Interval> at = {range(u, u + leg), range(v, v + leg),
+                                 range(1.0 - u - v, 1.0 - u - v - leg)};
+    Triple<Interval> x;
+    double size = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const double a = PointAt(u, v)[i], b = PointAt(u + leg, v)[i], c = PointAt(u, v + leg)[i];
+      x[i] = Interval(std::min({a, b, c}), std::max({a, b, c}));
+      size += std::abs(a) + std::abs(b) + std::abs(c);
+    }
+    const Frame<Interval> rows = BlendedRows(sides_, at);
+    // Some 40 operations on numbers up to 1, and up to this: their roundings are below 1e-14 of it.
+    const double rounding = 1e-14 * size;
+    return Inner(rows[0], x).Holds(rounding) && Inner(rows[1], x).Holds(rounding);
+  }
+
   Doubles PointAt(double u, double v) const {
     return Plus(Plus(Times(u, corners_[0]), Times(v, corners_[1])),
                 Times(1.0 - u - v, corners_[2]));
@@ -84,6 +139,9 @@ class TriangleSearch {
   }
 
   const std::array<Doubles, 3> corners_, normals_;
+  std::array<std::array<Frame<Interval>, 2>, 3> sides_;
+  std::optional<double> found_;
+  double distance_ = 0.0;
 };
 
 }  // namespace
@@ -110,9 +168,8 @@ std::vector<std::string> FindNearerPhong(const std::vector<Vector3d>& vertices,
     if (!(NearestOnTriangle(vertices[i], vertices[j], vertices[k]).norm() < nearer)) continue;
     const Vector3d area = (vertices[j] - vertices[i]).cross(vertices[k] - vertices[i]);
     if (!(area.dot(vertices[i]) > 0.0)) continue;  // it faces inward
-    const TriangleSearch search(
-        {ToTriple(vertices[i]), ToTriple(vertices[j]), ToTriple(vertices[k])},
-        {normals[i], normals[j], normals[k]});
+    TriangleSearch search({ToTriple(vertices[i]), ToTriple(vertices[j]), ToTriple(vertices[k])},
+                          {normals[i], normals[j], normals[k]});
     if (const auto found = search.Nearer(nearer)) {
       std::ostringstream out;
       out.precision(17);
