@@ -18,19 +18,18 @@ constexpr double kDeepInBall = 1e-3;  // then a ball buries more than a prism
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-bool DepthSearcher::CutByKnown(const FacetPiece& piece, const NearestPoint& nearest,
-                               const Vector3d& x) {
+bool DepthSearcher::CutByKnown(const FacetPiece& piece, const Vector3d& x) {
   const double least = 4.0 * SlackOf(piece);
   const BurialBall* ball = s_.balls.Find(x, least);
   const bool is_deep = ball != nullptr && ball->radius - (x - ball->centre).norm() > kDeepInBall;
-  if (is_deep && CutByBall(piece, nearest, *ball)) return true;
+  if (is_deep && CutByBall(piece, *ball)) return true;
   const int prism = s_.prisms.FindDeepest(x);
   if (prism >= 0) {
     const bool holds_x = s_.prisms.prism(prism).Margin(x) > least;
     const int deep = holds_x ? prism : WalkFrom(prism, x, least);
     if (deep >= 0 && CutByPrism(piece, deep)) return true;
   }
-  return ball != nullptr && !is_deep && CutByBall(piece, nearest, *ball);
+  return ball != nullptr && !is_deep && CutByBall(piece, *ball);
 }
 
 bool DepthSearcher::CutByPrism(const FacetPiece& piece, int number) {
@@ -40,13 +39,14 @@ bool DepthSearcher::CutByPrism(const FacetPiece& piece, int number) {
   FacetPiece rest = piece, parts[kPrismPlanes];
   int count = 0;
   for (int k = 0; k < kPrismPlanes; ++k) {
+    const Vector3d& normal = prism.normals[k];
+    const Line2 line = {normal.dot(frame.u), normal.dot(frame.v),
+                        prism.offsets[k] - frame.height * normal.dot(frame.normal) - slack};
+    if (IsWithin(rest, line)) continue;
     if (rest.count >= kMaxPieceCorners) {
       Halve(piece);
       return true;
     }
-    const Vector3d& normal = prism.normals[k];
-    const Line2 line = {normal.dot(frame.u), normal.dot(frame.v),
-                        prism.offsets[k] - frame.height * normal.dot(frame.normal) - slack};
     FacetPiece in, out;
     Part(rest, line, kPrismPlanes * number + k, &in, &out);
     if (in.count == 0) return false;
@@ -61,8 +61,7 @@ bool DepthSearcher::CutByPrism(const FacetPiece& piece, int number) {
   return true;
 }
 
-bool DepthSearcher::CutByBall(const FacetPiece& piece, const NearestPoint& nearest,
-                              const BurialBall& ball) {
+bool DepthSearcher::CutByBall(const FacetPiece& piece, const BurialBall& ball) {
   const FacetFrame& frame = FrameOf(piece);
   const double radius = ball.radius - 2.0 * SlackOf(piece);
   const double height = frame.normal.dot(ball.centre) - frame.height;
@@ -71,9 +70,9 @@ bool DepthSearcher::CutByBall(const FacetPiece& piece, const NearestPoint& neare
   const Vector2d centre(frame.u.dot(ball.centre), frame.v.dot(ball.centre));
   Vector2d middle = Vector2d::Zero();
   for (int i = 0; i < piece.count; ++i) middle += piece.at[i] / piece.count;
-  const Vector2d across = middle - nearest.at;
+  const Vector2d across = middle - piece.nearest.at;
   const double length = across.norm();
-  if (!(length > 0.0)) return (nearest.at - centre).squaredNorm() < squared;
+  if (!(length > 0.0)) return (piece.nearest.at - centre).squaredNorm() < squared;
   const Vector2d along = across / length;
   double least = 1e300;
   for (int i = 0; i < piece.count; ++i) {
@@ -89,7 +88,7 @@ bool DepthSearcher::CutByBall(const FacetPiece& piece, const NearestPoint& neare
     const double t = (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a;
     least = std::min(least, along.dot(from + std::min(t, 1.0) * step));
   }
-  const double gain = least - along.dot(nearest.at);
+  const double gain = least - along.dot(piece.nearest.at);
   if (least > 1e299) return true;  // all corners within
   if (!(gain > 0.05 * length)) return false;
   FacetPiece in, out;
@@ -121,7 +120,7 @@ void DepthSearcher::LeaveOpen(const FacetPiece& piece, double distance) {
   open_ = std::min(open_, std::max(0.0, distance - SlackOf(piece)));
 }
 
-void DepthSearcher::CutCrumb(const FacetPiece& piece, const NearestPoint& nearest) {
+void DepthSearcher::CutCrumb(const FacetPiece& piece) {
   ++crumbs_;
   if (piece.cuts >= kMaxCuts) return;  // all of it stays open
   const double half = std::max(kCrumb, 8.0 * SlackOf(piece));
@@ -130,7 +129,8 @@ void DepthSearcher::CutCrumb(const FacetPiece& piece, const NearestPoint& neares
     if (rest.count >= kMaxPieceCorners - 1) return;
     const double a = k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0, b = k == 2 ? 1.0 : k == 3 ? -1.0 : 0.0;
     FacetPiece in, out;
-    Part(rest, {a, b, a * nearest.at[0] + b * nearest.at[1] + half}, kNoWall, &in, &out);
+    Part(rest, {a, b, a * piece.nearest.at[0] + b * piece.nearest.at[1] + half}, kNoWall, &in,
+         &out);
     if (out.count > 0) {
       Measure(FrameOf(out), &out);
       Push(out);

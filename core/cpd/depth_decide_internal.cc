@@ -86,22 +86,20 @@ bool DepthSearcher::LookAt(const FacetPiece& piece) {
     Halve(piece);
     return false;
   }
-  const NearestPoint nearest = NearestOf(piece);
-  const Vector3d x = frame.At(nearest.at);
-  if (piece.cuts < kMaxCuts && CutByKnown(piece, nearest, x)) return false;
-  return Decide(piece, nearest, x);
+  const Vector3d x = frame.At(piece.nearest.at);
+  if (piece.cuts < kMaxCuts && CutByKnown(piece, x)) return false;
+  return Decide(piece, x);
 }
 
-bool DepthSearcher::Decide(const FacetPiece& piece, const NearestPoint& nearest,
-                           const Vector3d& x) {
-  const ContactName name = NameOf(piece, nearest);
+bool DepthSearcher::Decide(const FacetPiece& piece, const Vector3d& x) {
+  const ContactName name = NameOf(piece);
   const auto point = EstimatePoint(pair_, name);
   const bool is_near = point && (point->at - x).norm() < kNameDistance;
   const bool may_cut = piece.cuts < kMaxCuts;
   if (is_near) {
     for (const Vector3d& out : WaysOut(*point)) {
       if (IsOutside(name, point->at + kStep * out)) return found_ = true;
-      if (may_cut && CutByKnown(piece, nearest, x)) return false;
+      if (may_cut && CutByKnown(piece, x)) return false;
     }
   }
   const Verdict verdict = VerdictAt(x);
@@ -111,19 +109,19 @@ bool DepthSearcher::Decide(const FacetPiece& piece, const NearestPoint& nearest,
   }
   if (verdict == Verdict::kOverlap && may_cut) {
     AddWitness(x, last_.face_a, last_.face_b);
-    if (CutByKnown(piece, nearest, x)) return false;
+    if (CutByKnown(piece, x)) return false;
     AddAllWitnesses(x);
-    if (CutByKnown(piece, nearest, x)) return false;
+    if (CutByKnown(piece, x)) return false;
   }
   if (is_near && options_.certainty == Certainty::kExact && IsOutsideExactly(name)) {
     return found_ = true;
   }
   LeaveOpen(piece, piece.distance);
-  CutCrumb(piece, nearest);
+  CutCrumb(piece);
   return false;
 }
 
-ContactName DepthSearcher::NameOf(const FacetPiece& piece, const NearestPoint& nearest) const {
+ContactName DepthSearcher::NameOf(const FacetPiece& piece) const {
   const MetFacet& facet = s_.facets[piece.facet];
   ContactName name;
   if (facet.is_vertex) {
@@ -133,8 +131,8 @@ ContactName DepthSearcher::NameOf(const FacetPiece& piece, const NearestPoint& n
   }
   name.facet = facet.frame.name;
   const SumCorners& corners = facet.frame.corners;
-  for (int k = 0; k < nearest.wall_count; ++k) {
-    const int wall = nearest.walls[k];
+  for (int k = 0; k < piece.nearest.wall_count; ++k) {
+    const int wall = piece.nearest.walls[k];
     if (wall == kNoWall) continue;
     ContactWall& out = name.walls[name.wall_count++];
     if (wall >= 0) {

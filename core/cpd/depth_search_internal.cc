@@ -86,6 +86,7 @@ void DepthSearcher::Take(const Vector3d& at, const std::optional<ContactName>& n
 }
 
 bool DepthSearcher::IsBuried(const FacetFrame& frame, const FacetPiece& piece) const {
+  if (!s_.balls.MayHold(SlackOf(piece))) return false;
   Vector3d corners[kMaxPieceCorners];
   for (int i = 0; i < piece.count; ++i) corners[i] = frame.At(piece.at[i]);
   return s_.balls.Holds(std::span<const Vector3d>(corners, piece.count), SlackOf(piece));

@@ -99,22 +99,22 @@ class DepthSearcher {
   // No set at hand holds x. A step off the contacts that x stands for, by its name, mostly tells:
   // there is no overlap, and x was the answer, or there is, and what overlaps buries x, too.
   // Otherwise x itself, all faces that cross there, and big numbers are asked, in that order.
-  bool Decide(const FacetPiece& piece, const NearestPoint& nearest, const Eigen::Vector3d& x);
-  ContactName NameOf(const FacetPiece& piece, const NearestPoint& nearest) const;
+  bool Decide(const FacetPiece& piece, const Eigen::Vector3d& x);
+  ContactName NameOf(const FacetPiece& piece) const;
   // Which way an edge-edge facet's normal points, by the prism's.
   void OrientWall(const Eigen::Vector3d& normal, SumFacet* facet) const;
   // Cuts off what known sets bury, or one that is next to them; whether x was among it.
-  bool CutByKnown(const FacetPiece& piece, const NearestPoint& nearest, const Eigen::Vector3d& x);
+  bool CutByKnown(const FacetPiece& piece, const Eigen::Vector3d& x);
   bool CutByPrism(const FacetPiece& piece, int number);
   // The ball meets the plane in a disc. A chord across the piece, such that what lies on the
   // nearest point's side is within the disc.
-  bool CutByBall(const FacetPiece& piece, const NearestPoint& nearest, const BurialBall& ball);
+  bool CutByBall(const FacetPiece& piece, const BurialBall& ball);
   // Parts a piece of many corners in two.
   void Halve(const FacetPiece& piece);
   void LeaveOpen(const FacetPiece& piece, double distance);
   bool IsOutsideExactly(const ContactName& name);
   // Cuts off a small square round the nearest point, which stays open.
-  void CutCrumb(const FacetPiece& piece, const NearestPoint& nearest);
+  void CutCrumb(const FacetPiece& piece);
   // What helps the next query.
   void Remember();
   const MeshPair& pair_;

@@ -28,6 +28,36 @@ Vector3d AcrossLongestSide(const MeshPair& pair, const SumCorners& corners) {
   return longest.norm() > 0.0 ? Vector3d(longest.unitOrthogonal()) : Vector3d::UnitZ();
 }
 
+NearestPoint NearestOf(const FacetPiece& piece) {
+  NearestPoint nearest;
+  bool is_inside = true;
+  double least = 1e300;
+  for (int i = 0; i < piece.count; ++i) {
+    const int next = i + 1 == piece.count ? 0 : i + 1;
+    const Vector2d &a = piece.at[i], &b = piece.at[next];
+    const Vector2d side = b - a;
+    is_inside &= Cross2(side, -a) >= 0.0;
+    const double squared = side.squaredNorm(), along = -a.dot(side);
+    Vector2d foot = a;
+    int walls[2] = {piece.walls[i == 0 ? piece.count - 1 : i - 1], piece.walls[i]};
+    int count = 2;
+    if (along > 0.0 && along < squared) {
+      foot = a + (along / squared) * side;
+      walls[0] = piece.walls[i];
+      count = 1;
+    } else if (along > 0.0) {
+      continue;  // the next corner, whose turn comes
+    }
+    const double distance = foot.squaredNorm();
+    if (distance < least) {
+      least = distance;
+      nearest = {foot, count, {walls[0], walls[1]}};
+    }
+  }
+  if (is_inside && piece.count >= 3) return {};
+  return nearest;
+}
+
 }  // namespace
 
 void MakeFacet(const MeshPair& pair, const SumFacet& name, FacetFrame* frame, FacetPiece* piece) {
@@ -75,38 +105,14 @@ double DistanceToFacet(const MeshPair& pair, const SumFacet& name) {
   return std::max(0.0, piece.distance - frame.slack);
 }
 
-NearestPoint NearestOf(const FacetPiece& piece) {
-  NearestPoint nearest{Vector2d::Zero(), 0, {kNoWall, kNoWall}};
-  bool is_inside = true;
-  double least = 1e300;
-  for (int i = 0; i < piece.count; ++i) {
-    const int next = i + 1 == piece.count ? 0 : i + 1;
-    const Vector2d &a = piece.at[i], &b = piece.at[next];
-    const Vector2d side = b - a;
-    is_inside &= Cross2(side, -a) >= 0.0;
-    const double squared = side.squaredNorm(), along = -a.dot(side);
-    Vector2d foot = a;
-    int walls[2] = {piece.walls[i == 0 ? piece.count - 1 : i - 1], piece.walls[i]};
-    int count = 2;
-    if (along > 0.0 && along < squared) {
-      foot = a + (along / squared) * side;
-      walls[0] = piece.walls[i];
-      count = 1;
-    } else if (along > 0.0) {
-      continue;  // the next corner, whose turn comes
-    }
-    const double distance = foot.squaredNorm();
-    if (distance < least) {
-      least = distance;
-      nearest = {foot, count, {walls[0], walls[1]}};
-    }
-  }
-  if (is_inside && piece.count >= 3) return {Vector2d::Zero(), 0, {kNoWall, kNoWall}};
-  return nearest;
+void Measure(const FacetFrame& frame, FacetPiece* piece) {
+  piece->nearest = NearestOf(*piece);
+  piece->distance = std::sqrt(frame.height * frame.height + piece->nearest.at.squaredNorm());
 }
 
-void Measure(const FacetFrame& frame, FacetPiece* piece) {
-  piece->distance = std::sqrt(frame.height * frame.height + NearestOf(*piece).at.squaredNorm());
+bool IsWithin(const FacetPiece& piece, const Line2& line) {
+  return std::all_of(piece.at.begin(), piece.at.begin() + piece.count,
+                     [&](const Vector2d& x) { return line.Beyond(x) <= 0.0; });
 }
 
 void Part(const FacetPiece& piece, const Line2& line, int wall, FacetPiece* inside,
@@ -114,7 +120,7 @@ void Part(const FacetPiece& piece, const Line2& line, int wall, FacetPiece* insi
   std::array<double, kMaxPieceCorners> sides;
   double low = 1e300, high = -1e300;
   for (int i = 0; i < piece.count; ++i) {
-    sides[i] = line.a * piece.at[i][0] + line.b * piece.at[i][1] - line.c;
+    sides[i] = line.Beyond(piece.at[i]);
     low = std::min(low, sides[i]);
     high = std::max(high, sides[i]);
   }

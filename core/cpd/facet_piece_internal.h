@@ -36,11 +36,19 @@ inline constexpr double kCutSlack = 0x1p-49;
 inline constexpr int kMaxCuts = 4000;
 inline constexpr int kMaxPieceCorners = 12;
 
+// The point of a piece nearest to the origin, and the walls it lies on.
+struct NearestPoint {
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  int wall_count = 0;
+  std::array<int, 2> walls = {kNoWall, kNoWall};
+};
+
 struct FacetPiece {
   int facet = -1;  // number of its frame
   int count = 0;
   int cuts = 0;           // on the way to it
   double distance = 0.0;  // from the origin to the nearest point, in the frame
+  NearestPoint nearest;
   std::array<Eigen::Vector2d, kMaxPieceCorners> at;
   std::array<int, kMaxPieceCorners> walls;  // of the side from corner i to the next
 };
@@ -51,21 +59,16 @@ void MakeFacet(const MeshPair& pair, const SumFacet& name, FacetFrame* frame, Fa
 // No more than the distance of a facet from the origin, whichever way it faces.
 double DistanceToFacet(const MeshPair& pair, const SumFacet& name);
 
-// The nearest point to the origin, and the walls it lies on.
-struct NearestPoint {
-  Eigen::Vector2d at;
-  int wall_count;
-  std::array<int, 2> walls;
-};
-NearestPoint NearestOf(const FacetPiece& piece);
-// Sets the piece's distance.
+// Sets the piece's nearest point and distance.
 void Measure(const FacetFrame& frame, FacetPiece* piece);
 
 // Parts a piece by a x + b y <= c. Either part may be empty (count 0); both may be `piece`'s own
 // copies. Requires room for one more corner.
 struct Line2 {
   double a, b, c;
+  double Beyond(const Eigen::Vector2d& x) const { return a * x[0] + b * x[1] - c; }
 };
+bool IsWithin(const FacetPiece& piece, const Line2& line);
 void Part(const FacetPiece& piece, const Line2& line, int wall, FacetPiece* inside,
           FacetPiece* outside);
 
