@@ -103,40 +103,38 @@ int PrismList::Add(const Prism& prism) {
   prisms_.push_back(prism);
   if (slot / kWidth >= static_cast<int>(blocks_.size())) {
     blocks_.emplace_back();
-    for (auto& row : blocks_.back().offset) std::fill(row, row + kWidth, -1e30f);
+    for (auto& row : blocks_.back().offset) std::fill(row, row + kWidth, -1e300);
     for (auto& axis : blocks_.back().normal) {
-      for (auto& row : axis) std::fill(row, row + kWidth, 0.0f);
+      for (auto& row : axis) std::fill(row, row + kWidth, 0.0);
     }
   }
   Block& block = blocks_[slot / kWidth];
   for (int k = 0; k < kPrismPlanes; ++k) {
-    for (int axis = 0; axis < 3; ++axis) {
-      block.normal[axis][k][lane] = static_cast<float>(prism.normals[k][axis]);
-    }
-    block.offset[k][lane] = static_cast<float>(prism.offsets[k]);
+    for (int axis = 0; axis < 3; ++axis) block.normal[axis][k][lane] = prism.normals[k][axis];
+    block.offset[k][lane] = prism.offsets[k];
   }
   return number;
 }
 
 TOUCHSTONE_VECTOR_CLONES
-void PrismList::LargestMargins(std::span<const Block> blocks, const Eigen::Vector3f& x,
-                               float margins[kWidth], std::int32_t numbers[kWidth]) {
-  float most[kWidth];
-  std::int32_t of_most[kWidth];
-  for (int i = 0; i < kWidth; ++i) most[i] = -1e30f, of_most[i] = 0;
+void PrismList::LargestMargins(std::span<const Block> blocks, const Vector3d& x,
+                               double margins[kWidth], std::int64_t numbers[kWidth]) {
+  double most[kWidth];
+  std::int64_t of_most[kWidth];
+  for (int i = 0; i < kWidth; ++i) most[i] = -1e299, of_most[i] = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block& block = blocks[b];
-    float least[kWidth];
-    for (int i = 0; i < kWidth; ++i) least[i] = 1e30f;
+    double least[kWidth];
+    for (int i = 0; i < kWidth; ++i) least[i] = 1e300;
     for (int k = 0; k < kPrismPlanes; ++k) {
       for (int i = 0; i < kWidth; ++i) {
-        const float margin =
+        const double margin =
             block.offset[k][i] - (block.normal[0][k][i] * x[0] + block.normal[1][k][i] * x[1] +
                                   block.normal[2][k][i] * x[2]);
         least[i] = margin < least[i] ? margin : least[i];
       }
     }
-    const auto number = static_cast<std::int32_t>(b);
+    const auto number = static_cast<std::int64_t>(b);
     for (int i = 0; i < kWidth; ++i) of_most[i] = least[i] > most[i] ? number : of_most[i];
     for (int i = 0; i < kWidth; ++i) most[i] = least[i] > most[i] ? least[i] : most[i];
   }
@@ -145,12 +143,12 @@ void PrismList::LargestMargins(std::span<const Block> blocks, const Eigen::Vecto
 }
 
 int PrismList::FindDeepest(const Vector3d& x) const {
-  float margins[kWidth], most = -1e30f;
-  std::int32_t numbers[kWidth];
-  LargestMargins(blocks_, x.cast<float>(), margins, numbers);
+  double margins[kWidth], most = -1e299;
+  std::int64_t numbers[kWidth];
+  LargestMargins(blocks_, x, margins, numbers);
   int best = -1;
   for (int i = 0; i < kWidth; ++i) {
-    if (margins[i] > most) most = margins[i], best = numbers[i] * kWidth + i;
+    if (margins[i] > most) most = margins[i], best = static_cast<int>(numbers[i]) * kWidth + i;
   }
   if (best < 0) return -1;
   // Slot to the latest number in it.

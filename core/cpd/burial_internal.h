@@ -50,27 +50,25 @@ SumFacet FacetOf(const MeshPair& pair, const PrismName& name, int plane);
 bool MakePrism(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
                const PrismName& name, Prism* prism);
 
-// The prisms met so far. Those of the last kWindow are searched, sixteen at a time.
+// The prisms met so far. Those of the last kWindow are searched, eight at a time.
 class PrismList {
  public:
   void Clear();
   int Add(const Prism& prism);  // its number
   const Prism& prism(int i) const { return prisms_[i]; }
   int size() const { return static_cast<int>(prisms_.size()); }
-  // The prism that holds x deepest, or comes nearest to it, up to roundings to singles; -1 if there
-  // is none.
+  // The prism that holds x deepest, or comes nearest to it; -1 if there is none.
   int FindDeepest(const Eigen::Vector3d& x) const;
 
  private:
-  // In singles: what is found is only where to look.
-  static constexpr int kWidth = 16, kWindow = 512;
+  static constexpr int kWidth = 8, kWindow = 512;
   struct alignas(64) Block {
-    float normal[3][kPrismPlanes][kWidth];
-    float offset[kPrismPlanes][kWidth];
+    double normal[3][kPrismPlanes][kWidth];
+    double offset[kPrismPlanes][kWidth];
   };
   // Per lane, the largest margin in any block, and its block's number.
-  static void LargestMargins(std::span<const Block> blocks, const Eigen::Vector3f& x,
-                             float margins[kWidth], std::int32_t numbers[kWidth]);
+  static void LargestMargins(std::span<const Block> blocks, const Eigen::Vector3d& x,
+                             double margins[kWidth], std::int64_t numbers[kWidth]);
 
   std::vector<Prism> prisms_;
   std::vector<Block> blocks_;
