@@ -11,25 +11,22 @@ using Eigen::Vector3d;
 
 // Whether the solid near v, moved along some direction, stays within itself: one that no face there
 // looks along. Such a vertex never locks, as the body can back out that way from whatever it only
-// touches there. Sought from the middle of the inward normals, pushed away from the face that looks
-// along it most; one that lies within a hair of a face's plane may be passed over.
+// touches there. Sought by steps away from the face that looks along it most (the perceptron),
+// which finds it if there is one that looks away from all by a sine of 0.01.
 bool CanBackOut(const TriangleMesh& mesh, int v) {
-  constexpr int kMostPushes = 64;
+  constexpr int kMostSteps = 10'000;
   constexpr double kHair = 1e-9;  // above the roundings of normals and of the product
   Vector3d way = Vector3d::Zero();
   for (const int h : mesh.vertex_half_edges(v)) way -= mesh.face_normal(TriangleMesh::face_of(h));
-  for (int push = 0; push < kMostPushes; ++push) {
-    const double length = way.norm();
-    if (!(length > kHair)) return false;
-    way /= length;
+  for (int step = 0; step < kMostSteps; ++step) {
     Vector3d worst = Vector3d::Zero();
-    double most = -1.0;
+    double most = -1e300;
     for (const int h : mesh.vertex_half_edges(v)) {
       const Vector3d& normal = mesh.face_normal(TriangleMesh::face_of(h));
       if (normal.dot(way) > most) most = normal.dot(way), worst = normal;
     }
-    if (most < -kHair) return true;
-    way -= (most + 0.1) * worst;
+    if (most < -kHair * way.norm()) return true;
+    way -= worst;
   }
   return false;
 }
