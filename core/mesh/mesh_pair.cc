@@ -41,7 +41,9 @@ void MeshPair::Place(const RelativePose& pose) {
     for (int v = 0; v < a_.mesh.vertex_count(); ++v) a_.points[v] = scale_ * a_.mesh.vertex(v);
     a_.point_error = kUnderflow;
     a_.tree.Fit(a_.points, a_.mesh.faces());
-    FindPlanes(&a_);
+    FindPlanes(a_.mesh, &a_.planes);
+    for (FacePlane& plane : a_.planes) plane.height = plane.normal.dot(a_.points[plane.vertex]);
+    FindPlanes(b_.mesh, &own_planes_of_b_);
   }
   b_.points.resize(b_.mesh.vertex_count());
   const Vector3d translation = scale_ * pose.translation();
@@ -56,15 +58,12 @@ void MeshPair::Place(const RelativePose& pose) {
                    scale_ * (3.01 * pose.rotation_error() * b_.mesh.max_coordinate() +
                              1.01 * pose.translation_error());
   b_.tree.Fit(b_.points, b_.mesh.faces());
-  FindPlanes(&b_);
+  PlacePlanesOfB();
 }
 
-void MeshPair::FindPlanes(PlacedMesh* placed) const {
-  const bool is_b = placed == &b_;
-  const Eigen::Matrix3d rotation = is_b ? pose_.rotation() : Eigen::Matrix3d::Identity();
-  const double rotation_error = is_b ? pose_.rotation_error() : 0.0;
-  const TriangleMesh& mesh = placed->mesh;
-  placed->planes.resize(mesh.face_count());
+// In the mesh's own frame, scaled; leaves out heights.
+void MeshPair::FindPlanes(const TriangleMesh& mesh, std::vector<FacePlane>* planes) const {
+  planes->resize(mesh.face_count());
   for (int f = 0; f < mesh.face_count(); ++f) {
     // Begun opposite the longest side, where the sine of the angle is largest.
     const Triangle& face = mesh.face(f);
@@ -75,26 +74,49 @@ void MeshPair::FindPlanes(PlacedMesh* placed) const {
       squared[k] = sides[k].squaredNorm();
     }
     const int k = static_cast<int>(std::max_element(squared, squared + 3) - squared);
-    const Vector3d& in_u = sides[(k + 2) % 3];
-    const Vector3d& in_v = sides[(k + 1) % 3];  // runs to vertex k: v is its negative
-    const double u_max = MaxAbs(in_u), v_max = MaxAbs(in_v);
-    const Vector3d u = is_b ? Vector3d(rotation * in_u) : in_u;
-    const Vector3d v = is_b ? Vector3d(rotation * in_v) : in_v;
-    // A difference is rounded once; the rotation adds four roundings of sums of at most 1.75 max,
-    // and its own error. Differences of doubles underflow exactly or not at all.
-    const double row = is_b ? 1.75 * 5.1 * kUnit + 3.01 * rotation_error : 1.01 * kUnit;
-    const double u_error = row * u_max + kUnderflow, v_error = row * v_max + kUnderflow;
+    const Vector3d& u = sides[(k + 2) % 3];
+    const Vector3d& v = sides[(k + 1) % 3];  // runs to vertex k, and so does the negative of u
     const double lu = MaxAbs(u), lv = MaxAbs(v);
-    FacePlane& plane = placed->planes[f];
+    // Rounded once; differences of doubles underflow exactly or not at all.
+    const double u_error = 1.01 * kUnit * lu + kUnderflow, v_error = 1.01 * kUnit * lv + kUnderflow;
+    FacePlane& plane = (*planes)[f];
     plane.vertex = face[k];
     plane.normal = v.cross(u);
-    plane.height = plane.normal.dot(placed->points[plane.vertex]);
     plane.length = plane.normal.cwiseAbs().sum();
     // A coordinate is u_i v_j - u_j v_i: two roundings on each path, 2.01 units of the absolute
     // terms, at most 2 |u||v|; errors of u and v add 2 (|u| e_v + |v| e_u + e_u e_v).
     plane.error =
         1.01 * (4.1 * kUnit * lu * lv + 2.0 * (lu * v_error + lv * u_error + u_error * v_error)) +
         kUnderflow;
+  }
+}
+
+// R may be off orthonormal: (R v) x (R u) = cof(R) (v x u). An entry of cof(R) is a difference of
+// two products of entries of R, which are at most 1 + 1e-6: two roundings on each path, 4.1 units,
+// and 4.1 e + 2.1 e² by their errors e. Its rows are cross products of rows of R, of length at most
+// 1 + 3e-6, so the sum of a row's absolute values is below 1.75, and no entry above 1.01. With L
+// the sum of the absolute coordinates of a normal, each off by e_n, its image passes three
+// roundings on each path, 3.01 units of 1.01 L; the data add 1.75 e_n + e_cof (L + 3 e_n).
+void MeshPair::PlacePlanesOfB() {
+  const Eigen::Matrix3d& rotation = pose_.rotation();
+  Eigen::Matrix3d cofactors;
+  for (int i = 0; i < 3; ++i) {
+    cofactors.row(i) = rotation.row((i + 1) % 3).cross(rotation.row((i + 2) % 3));
+  }
+  const double e = pose_.rotation_error();
+  const double cofactor_error = 1.01 * (4.1 * kUnit + 4.1 * e + 2.1 * e * e);
+  const double per_length = 1.01 * (3.1 * kUnit + cofactor_error);
+  const double per_error = 1.01 * (1.75 + 3.0 * cofactor_error);
+  const std::size_t count = own_planes_of_b_.size();
+  b_.planes.resize(count);
+  for (std::size_t f = 0; f < count; ++f) {
+    const FacePlane& own = own_planes_of_b_[f];
+    FacePlane& plane = b_.planes[f];
+    plane.vertex = own.vertex;
+    plane.normal.noalias() = cofactors * own.normal;
+    plane.height = plane.normal.dot(b_.points[own.vertex]);
+    plane.length = plane.normal.cwiseAbs().sum();
+    plane.error = per_length * own.length + per_error * own.error + kUnderflow;
   }
 }
 

@@ -71,9 +71,11 @@ class MeshPair {
   double scale() const { return scale_; }
 
  private:
-  void FindPlanes(PlacedMesh* placed) const;
+  void FindPlanes(const TriangleMesh& mesh, std::vector<FacePlane>* planes) const;
+  void PlacePlanesOfB();
 
   PlacedMesh a_, b_;
+  std::vector<FacePlane> own_planes_of_b_;  // in its frame, scaled; without heights
   RelativePose pose_;
   double scale_ = 1.0;
 };

@@ -166,7 +166,7 @@ class GroupCells {
       if (tail_beyond != head_beyond) {
         if (tail_beyond) std::swap(tail, head);
         inside ^= geometry_.Turn(graph_.point(tail), graph_.point(head), graph_.point(p),
-                                 normal_axis_) > 0;
+                                 normal_axis_, group_->plane) > 0;
       }
       h = graph_.Next(h);
     } while (h != loop.first);

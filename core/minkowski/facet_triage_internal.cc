@@ -114,11 +114,6 @@ bool PartAtCorner(const SumGeometry& geometry, const ArrangedFacet& x, const Arr
   return PartAtEdges(geometry, x, shared.place_x, y) || PartAtEdges(geometry, y, shared.place_y, x);
 }
 
-bool AreNeighbors(const ArrangedFacet& x, const ArrangedFacet& y) {
-  if (x.name.kind != y.name.kind || x.name.kind == SumFacetKind::kEdgeEdge) return false;
-  return x.name.kind == SumFacetKind::kFaceVertex ? x.name.b == y.name.b : x.name.a == y.name.a;
-}
-
 bool LieAcrossAnEdge(const SumGeometry& geometry, const ArrangedFacet& x, const ArrangedFacet& y) {
   for (int k = 0; k < x.count; ++k) {
     for (int l = 0; l < y.count; ++l) {

@@ -53,10 +53,6 @@ SharedCorners FindSharedCorners(const ArrangedFacet& x, const ArrangedFacet& y);
 bool PartAtCorner(const SumGeometry& geometry, const ArrangedFacet& x, const ArrangedFacet& y,
                   const SharedCorners& shared);
 
-// Of facets that share an edge: whether they are two faces of one body, against one vertex of the
-// other. Embedded surfaces do not fold, so they share no more.
-bool AreNeighbors(const ArrangedFacet& x, const ArrangedFacet& y);
-
 // Whether the facets share an edge that they pass in opposite senses, and certainly face more or
 // less the same way: if their planes are one they lie on either side of the edge, else they share
 // no more than it. Neither cuts the other, and a plane may have two names.

@@ -104,7 +104,7 @@ void GapFiller::Gather(const MeshPair& pair, const GaussMap& map_a, const GaussM
   found_.clear();
   candidates_.clear();
   const double reach = ball.gathering_reach() + padding_.approach;
-  hierarchy->Candidates(ball.center(), reach, &found_);
+  hierarchy->NearBall(ball.center(), reach, &found_);
   for (SumFacet& candidate : found_) {
     const MaySupport may = Triage(pair, map_a, map_b, &candidate);
     if (may == MaySupport::kNever) continue;
@@ -117,10 +117,8 @@ void GapFiller::Gather(const MeshPair& pair, const GaussMap& map_a, const GaussM
     near_.Add(box);
   }
   if (near_.empty()) return;
-  const Box3& all = near_.all();
   found_.clear();
-  hierarchy->Candidates(0.5 * (all.low + all.high), 0.5 * (all.high - all.low).norm(), &found_,
-                        &near_);
+  hierarchy->NearAnyOf(near_, &found_);
   for (SumFacet& candidate : found_) {
     const FacetCorners corners = RoundedCorners(pair, candidate);
     const Box3 box = BoxOf(pair, corners);

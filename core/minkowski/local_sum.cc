@@ -121,7 +121,7 @@ class LocalMinkowskiSum::Implementation {
     near_.Clear();
     supported_.clear();
     candidates_.clear();
-    hierarchy_->Candidates(ball.center(), ball.gathering_reach(), &candidates_);
+    hierarchy_->NearBall(ball.center(), ball.gathering_reach(), &candidates_);
     sum_.candidates = static_cast<long>(candidates_.size());
     for (const SumFacet& candidate : candidates_) {
       const internal::FacetCorners corners = internal::RoundedCorners(pair_, candidate);
@@ -176,10 +176,8 @@ class LocalMinkowskiSum::Implementation {
   }
 
   void GatherCrossers(const internal::ScaledBall& ball, internal::SupportSigns* signs) {
-    const Box3& all = near_.all();
     candidates_.clear();
-    hierarchy_->Candidates(0.5 * (all.low + all.high), 0.5 * (all.high - all.low).norm(),
-                           &candidates_, &near_);
+    hierarchy_->NearAnyOf(near_, &candidates_);
     sum_.candidates += static_cast<long>(candidates_.size());
     for (const SumFacet& candidate : candidates_) {
       const internal::FacetCorners corners = internal::RoundedCorners(pair_, candidate);

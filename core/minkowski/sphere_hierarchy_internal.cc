@@ -85,24 +85,28 @@ double SizeOf(std::span<const FeatureBound> bounds, std::span<const int> items) 
   return (high - low).norm();
 }
 
-// Bit i: lane i of the node and the other bound have cones that meet and spheres whose sum meets
-// the ball. Cones of angles s and t meet iff their axes make an angle of at most s + t, of cosine
-// cos s cos t - sin s sin t.
+// Bit i: lane i of the node and the other bound have cones that meet and spheres whose sum comes
+// within the target's reach of its box. Cones of angles s and t meet iff their axes make an angle
+// of at most s + t, of cosine cos s cos t - sin s sin t.
 TOUCHSTONE_VECTOR_CLONES
-unsigned MeetingLanes(const Node& node, const LaneBound& other, const Vector3d& center,
-                      double radius) {
-  const double x = center[0] - other.center[0], y = center[1] - other.center[1],
-               z = center[2] - other.center[2], r = radius + other.radius;
+unsigned MeetingLanes(const Node& node, const LaneBound& other, const GatherTarget& target) {
+  const double x = target.center[0] - other.center[0], y = target.center[1] - other.center[1],
+               z = target.center[2] - other.center[2], r = target.reach + other.radius;
+  const double half_x = target.half[0], half_y = target.half[1], half_z = target.half[2];
   std::int64_t meets[kWidth];
   for (int i = 0; i < kWidth; ++i) meets[i] = std::int64_t{1} << i;
   for (int i = 0; i < kWidth; ++i) {
-    const double dx = node.center[0][i] - x, dy = node.center[1][i] - y, dz = node.center[2][i] - z;
-    const double reach = node.radius[i] + r;
+    const double dx = std::abs(node.center[0][i] - x) - half_x;
+    const double dy = std::abs(node.center[1][i] - y) - half_y;
+    const double dz = std::abs(node.center[2][i] - z) - half_z;
+    // Twice what is beyond the box along each axis, and nothing within.
+    const double ex = dx + std::abs(dx), ey = dy + std::abs(dy), ez = dz + std::abs(dz);
+    const double reach = 2.0 * (node.radius[i] + r);
     const double cosine = node.axis[0][i] * other.axis[0] + node.axis[1][i] * other.axis[1] +
                           node.axis[2][i] * other.axis[2];
     const double least = node.cosine[i] * other.cosine - node.sine[i] * other.sine;
     // In a form that compilers know to put into lanes.
-    meets[i] = ((dx * dx + dy * dy + dz * dz > reach * reach) | (cosine < least)) ? 0 : meets[i];
+    meets[i] = ((ex * ex + ey * ey + ez * ez > reach * reach) | (cosine < least)) ? 0 : meets[i];
   }
   std::int64_t mask = 0;
   for (int i = 0; i < kWidth; ++i) mask |= meets[i];
@@ -311,17 +315,28 @@ void SphereHierarchy::Place(const MeshPair& pair, double widening) {
   }
 }
 
-void SphereHierarchy::Candidates(const Vector3d& center, double radius,
-                                 std::vector<SumFacet>* candidates, const NearBoxes* near) {
-  Pairs(kFaces, kVertices, SumFacetKind::kFaceVertex, center, radius, near, candidates);
-  Pairs(kVertices, kFaces, SumFacetKind::kVertexFace, center, radius, near, candidates);
-  Pairs(kEdges, kEdges, SumFacetKind::kEdgeEdge, center, radius, near, candidates);
+void SphereHierarchy::NearBall(const Vector3d& center, double radius,
+                               std::vector<SumFacet>* candidates) {
+  AllPairs({center, Vector3d::Zero(), radius}, nullptr, candidates);
+}
+
+// The box that holds all goes first: half of what its middle and sides are rounded by.
+void SphereHierarchy::NearAnyOf(const NearBoxes& near, std::vector<SumFacet>* candidates) {
+  const Box3& all = near.all();
+  const Vector3d half = 0.5 * all.high - 0.5 * all.low;
+  AllPairs({0.5 * all.low + 0.5 * all.high, half, 0x1p-44}, &near, candidates);
+}
+
+void SphereHierarchy::AllPairs(const GatherTarget& target, const NearBoxes* near,
+                               std::vector<SumFacet>* candidates) {
+  Pairs(kFaces, kVertices, SumFacetKind::kFaceVertex, target, near, candidates);
+  Pairs(kVertices, kFaces, SumFacetKind::kVertexFace, target, near, candidates);
+  Pairs(kEdges, kEdges, SumFacetKind::kEdgeEdge, target, near, candidates);
 }
 
 // Of two nodes the larger is opened first, against all of the other: few of its lanes are left.
-void SphereHierarchy::Pairs(Kind kind_a, Kind kind_b, SumFacetKind kind, const Vector3d& center,
-                            double radius, const NearBoxes* near,
-                            std::vector<SumFacet>* candidates) {
+void SphereHierarchy::Pairs(Kind kind_a, Kind kind_b, SumFacetKind kind, const GatherTarget& target,
+                            const NearBoxes* near, std::vector<SumFacet>* candidates) {
   PlacedSphereConeTree &tree_a = trees_[0][kind_a], &tree_b = trees_[1][kind_b];
   if (tree_a.empty() || tree_b.empty()) return;
   const auto each = [](unsigned mask, const auto& visit) {
@@ -346,18 +361,16 @@ void SphereHierarchy::Pairs(Kind kind_a, Kind kind_b, SumFacetKind kind, const V
     };
     if (i < 0) {
       const int k = ~i % kWidth;
-      each(MeetingLanes(b, LaneOf(a, k), center, radius), [&](int l) { add(k, l); });
+      each(MeetingLanes(b, LaneOf(a, k), target), [&](int l) { add(k, l); });
     } else if (j < 0) {
       const int l = ~j % kWidth;
-      each(MeetingLanes(a, LaneOf(b, l), center, radius), [&](int k) { add(k, l); });
+      each(MeetingLanes(a, LaneOf(b, l), target), [&](int k) { add(k, l); });
     } else if (a.all.radius >= b.all.radius) {
-      each(MeetingLanes(a, b.all, center, radius), [&](int k) {
-        each(MeetingLanes(b, LaneOf(a, k), center, radius), [&](int l) { add(k, l); });
-      });
+      each(MeetingLanes(a, b.all, target),
+           [&](int k) { each(MeetingLanes(b, LaneOf(a, k), target), [&](int l) { add(k, l); }); });
     } else {
-      each(MeetingLanes(b, a.all, center, radius), [&](int l) {
-        each(MeetingLanes(a, LaneOf(b, l), center, radius), [&](int k) { add(k, l); });
-      });
+      each(MeetingLanes(b, a.all, target),
+           [&](int l) { each(MeetingLanes(a, LaneOf(b, l), target), [&](int k) { add(k, l); }); });
     }
   }
 }

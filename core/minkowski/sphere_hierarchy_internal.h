@@ -88,6 +88,12 @@ class PlacedSphereConeTree {
   double widening_ = 0.0, widening_cosine_ = 1.0, widening_sine_ = 0.0;
 };
 
+// All that is within a reach of a box, given by its middle and half its sides; a ball has none.
+struct GatherTarget {
+  Eigen::Vector3d center, half;
+  double reach;
+};
+
 // Both bodies' trees over faces, vertices that can support, and convex edges.
 class SphereHierarchy {
  public:
@@ -99,15 +105,17 @@ class SphereHierarchy {
   void Place(const MeshPair& pair, double widening = 0.0);
 
   // All pairs of features, named as facets, whose cones meet and whose sum may meet a ball, and
-  // some others. Edges' `is_along_cross` is not set. Where boxes are given, pairs whose sum comes
-  // near none of them may be left out. Complexity: O(k + log n) on round bodies.
-  void Candidates(const Eigen::Vector3d& center, double radius, std::vector<SumFacet>* candidates,
-                  const NearBoxes* near = nullptr);
+  // some others. Edges' `is_along_cross` is not set. Complexity: O(k + log n) on round bodies.
+  void NearBall(const Eigen::Vector3d& center, double radius, std::vector<SumFacet>* candidates);
+  // The same of those whose sum may meet one of the boxes.
+  void NearAnyOf(const NearBoxes& near, std::vector<SumFacet>* candidates);
 
  private:
   enum Kind { kFaces, kVertices, kEdges, kKinds };
-  void Pairs(Kind kind_a, Kind kind_b, SumFacetKind kind, const Eigen::Vector3d& center,
-             double radius, const NearBoxes* near, std::vector<SumFacet>* candidates);
+  void AllPairs(const GatherTarget& target, const NearBoxes* near,
+                std::vector<SumFacet>* candidates);
+  void Pairs(Kind kind_a, Kind kind_b, SumFacetKind kind, const GatherTarget& target,
+             const NearBoxes* near, std::vector<SumFacet>* candidates);
 
   std::vector<PlacedSphereConeTree> trees_[2];  // of A; of B, reflected: centres add
   std::vector<std::pair<int, int>> stack_;

@@ -50,6 +50,14 @@ struct SumPoint {
   double error;  // of each coordinate; infinite where doubles cannot tell
 };
 
+// Whether two facets are two faces of one body, against one vertex of the other. Surfaces are
+// embedded, so they share no more than the corners and edges that both name: neither cuts the
+// other, and a plane may have two names.
+inline bool AreOfOneVertex(const SumFacet& x, const SumFacet& y) {
+  if (x.kind != y.kind || x.kind == SumFacetKind::kEdgeEdge) return false;
+  return x.kind == SumFacetKind::kFaceVertex ? x.b == y.b : x.a == y.a;
+}
+
 // What was made for some of many numbers, where it stays.
 template <class Item>
 class KeptItems {
@@ -105,8 +113,8 @@ class SumGeometry {
   // The sign of x - y along a coordinate axis.
   int Compare(int x, int y, int axis);
   bool AreEqual(int x, int y);
-  // The sign of coordinate `axis` of (y - x) x (z - x).
-  int Turn(int x, int y, int z, int axis);
+  // The sign of coordinate `axis` of (y - x) x (z - x), for points of a plane.
+  int Turn(int x, int y, int z, int axis, int plane);
   // The same in doubles alone; 0: they cannot tell.
   static int TriageTurn(const SumPoint& x, const SumPoint& y, const SumPoint& z, int axis);
   // The sign of det(normals of p, q, r).
@@ -150,6 +158,11 @@ class SumGeometry {
   bool LiesOnByName(const SumPoint& x, int plane) const;
   bool LieOnOneEdge(const std::array<int, 3>& points) const;
   std::optional<int> SideOfFace(const SumPoint& x, int plane);
+  std::optional<int> SideByEnds(const SumPoint& x, int plane);
+  std::optional<int> SideAcrossAnEdge(const SumPoint& x, int plane);
+  std::optional<int> SideByNames(const SumPoint& x, int plane);
+  std::optional<int> TurnByNames(const std::array<int, 3>& points, int axis, int plane);
+  std::optional<int> TurnAgainst(const std::array<int, 3>& points, int axis, int plane, int other);
   std::optional<SumVertex> VertexAbreast(const SumPoint& x, int axis) const;
   int ExactTurn(std::array<int, 3> points, int axis);
   bool IsVertexOfFlatFacet(const SumPoint& x, const SumFacet& facet) const;

@@ -79,11 +79,62 @@ std::optional<int> SumGeometry::SideOfFace(const SumPoint& x, int plane) {
   return -Determinant(way_to(u), way_to(v), way_to(w)).sign();
 }
 
+// A point on an edge of M lies strictly between its ends: on their side, where they have one.
+std::optional<int> SumGeometry::SideByEnds(const SumPoint& x, int plane) {
+  if (x.form != SumPointForm::kOnEdge) return std::nullopt;
+  int sides[2];
+  for (int k = 0; k < 2; ++k) {
+    const SumPoint& end = points_[x.parts[k]];
+    const int sign = TriageSign(Height(end, planes_[plane]));
+    if (sign == 0 && !LiesOnByName(end, plane)) {
+      const auto side = SideOfFace(end, plane);
+      if (!side) return std::nullopt;
+      sides[k] = *side;
+    } else {
+      sides[k] = sign;
+    }
+  }
+  if (sides[0] * sides[1] < 0) return std::nullopt;
+  return sides[0] != 0 ? sides[0] : sides[1];
+}
+
+// A point in the plane of a face beside it, against the same other vertex: on the side of that
+// face's apex, or on the other one, as it lies before or beyond the edge between them.
+std::optional<int> SumGeometry::SideAcrossAnEdge(const SumPoint& x, int plane) {
+  const SumPlane& own = planes_[plane];
+  if (x.form == SumPointForm::kVertex || own.axis >= 0) return std::nullopt;
+  for (int k = x.form == SumPointForm::kOnEdge ? 2 : 0; k < 3; ++k) {
+    const SumPlane& beside = planes_[x.parts[k]];
+    if (beside.axis >= 0 || !AreOfOneVertex(own.facet, beside.facet)) continue;
+    const auto& corners = beside.points;
+    const auto is_shared = [&](int corner) {
+      return std::find(own.points.begin(), own.points.end(), corner) != own.points.end();
+    };
+    if (is_shared(corners[0]) + is_shared(corners[1]) + is_shared(corners[2]) != 2) continue;
+    const int apex = !is_shared(corners[0]) ? 0 : !is_shared(corners[1]) ? 1 : 2;
+    const SumPoint &u = points_[corners[(apex + 1) % 3]], &v = points_[corners[(apex + 2) % 3]];
+    int axis = 0;
+    beside.normal.cwiseAbs().maxCoeff(&axis);
+    const int turns = TriageTurn(u, v, x, axis) * TriageTurn(u, v, points_[corners[apex]], axis);
+    if (turns == 0) continue;
+    if (const auto side = SideOfFace(points_[corners[apex]], plane)) return *side * turns;
+  }
+  return std::nullopt;
+}
+
+// Where doubles cannot tell.
+std::optional<int> SumGeometry::SideByNames(const SumPoint& x, int plane) {
+  if (LiesOnByName(x, plane)) return 0;
+  if (const auto side = SideOfFace(x, plane)) return side;
+  if (const auto side = SideByEnds(x, plane)) return side;
+  return SideAcrossAnEdge(x, plane);
+}
+
 int SumGeometry::Side(int point, int plane) {
   const SumPoint& x = points_[point];
   const int sign = TriageSign(Height(x, planes_[plane]));
-  if (sign != 0 || LiesOnByName(x, plane)) return sign;
-  if (const auto side = SideOfFace(x, plane)) return *side;
+  if (sign != 0) return sign;
+  if (const auto side = SideByNames(x, plane)) return *side;
   ++exact_count_;
   const ExactPoint& at = Exact(point);
   const ExactPlane& exact = ExactPlaneOf(plane);
@@ -151,10 +202,55 @@ bool SumGeometry::LieOnOneEdge(const std::array<int, 3>& points) const {
   });
 }
 
-int SumGeometry::Turn(int x, int y, int z, int axis) {
+// With n the plane's normal and m another's, x and y on the line of both, y - x = t (n x m): as
+// z - x is normal to n, ((y - x) x (z - x)) . n = t (z - x) . (n x (n x m)) = -t |n|² (z - x) . m.
+std::optional<int> SumGeometry::TurnAgainst(const std::array<int, 3>& points, int axis, int plane,
+                                            int other) {
+  const SumPlane &p = planes_[plane], &q = planes_[other];
+  const BoundedVector line = CrossOf(p.normal, p.normal_error, q.normal, q.normal_error);
+  int along = 0;
+  if (!(line.value.cwiseAbs().maxCoeff(&along) > line.error)) return std::nullopt;
+  int off = -1, count = 0;  // the line
+  for (int k = 0; k < 3; ++k) {
+    if (LiesOnByName(points_[points[k]], other)) continue;
+    off = k;
+    ++count;
+  }
+  if (count == 0) return 0;
+  if (count > 1) return std::nullopt;
+  const SumPoint &x = points_[points[(off + 1) % 3]], &y = points_[points[(off + 2) % 3]];
+  const double way = y.rounded[along] - x.rounded[along];
+  const int t = SignOf(way, 1.01 * (x.error + y.error + kUnit * std::abs(way))) *
+                (line.value[along] > 0.0 ? 1 : -1);
+  const int up = SignOf(p.normal[axis], p.normal_error);
+  if (t == 0 || up == 0) return std::nullopt;
+  const SumPoint& z = points_[points[off]];
+  const int sign = TriageSign(Height(z, q));
+  if (sign != 0) return -t * up * sign;
+  const auto side = SideByNames(z, other);
+  if (!side) return std::nullopt;
+  return -t * up * *side;
+}
+
+// By the planes of facets that two of the points lie in by their names.
+std::optional<int> SumGeometry::TurnByNames(const std::array<int, 3>& points, int axis, int plane) {
+  for (const int point : points) {
+    const SumPoint& x = points_[point];
+    if (x.form == SumPointForm::kVertex) continue;
+    for (int k = x.form == SumPointForm::kOnEdge ? 2 : 0; k < 3; ++k) {
+      const int other = x.parts[k];
+      if (planes_[other].axis >= 0 || Root(other) == Root(plane)) continue;
+      if (const auto sign = TurnAgainst(points, axis, plane, other)) return sign;
+    }
+  }
+  return std::nullopt;
+}
+
+int SumGeometry::Turn(int x, int y, int z, int axis, int plane) {
   if (x == y || y == z || z == x) return 0;
   const int sign = TriageTurn(points_[x], points_[y], points_[z], axis);
   if (sign != 0 || LieOnOneEdge({x, y, z})) return sign;
+  if (const auto by_names = TurnByNames({x, y, z}, axis, plane)) return *by_names;
   return ExactTurn({x, y, z}, axis);
 }
 

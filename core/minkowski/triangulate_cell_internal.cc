@@ -11,7 +11,7 @@ using Loop = std::vector<int>;
 
 class Triangulator {
  public:
-  Triangulator(SumGeometry* geometry, int plane) : geometry_(*geometry) {
+  Triangulator(SumGeometry* geometry, int plane) : geometry_(*geometry), plane_(plane) {
     axis_ = geometry_.NormalAxis(plane);
     sense_ = geometry_.NormalAlong(plane, axis_);
   }
@@ -34,7 +34,7 @@ class Triangulator {
   }
 
  private:
-  int Turn(int x, int y, int z) { return sense_ * geometry_.Turn(x, y, z, axis_); }
+  int Turn(int x, int y, int z) { return sense_ * geometry_.Turn(x, y, z, axis_, plane_); }
   static int At(const Loop& loop, std::ptrdiff_t k) {
     const auto n = std::ssize(loop);
     return loop[static_cast<std::size_t>((k % n + n) % n)];
@@ -179,6 +179,7 @@ class Triangulator {
   }
 
   SumGeometry& geometry_;
+  const int plane_;
   int axis_, sense_;
   std::vector<std::array<int, 3>> triangles_;
 };
