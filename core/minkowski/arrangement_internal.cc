@@ -33,8 +33,9 @@ class Arranger {
     }
   }
 
-  Arrangement Run() {
-    const FacetPairs crossing = FindCrossingFacets(&geometry_, result_.facets, is_active_);
+  // What may cross: the pairs given, or all.
+  Arrangement Run(std::optional<std::span<const std::pair<int, int>>> near) {
+    const FacetPairs crossing = FindCrossingFacets(&geometry_, result_.facets, near);
     result_.box_pairs = crossing.box_pairs;
     FormGroups();
     AddEdges();
@@ -295,7 +296,7 @@ class Arranger {
   }
 
   SumGeometry& geometry_;
-  const std::span<const char> is_active_;
+  const std::span<const char> is_active_;  // empty: all are
   Arrangement result_;
   std::vector<int> group_of_facet_;
   std::vector<char> group_is_active_;
@@ -306,9 +307,13 @@ class Arranger {
 
 }  // namespace
 
+Arrangement Arrange(SumGeometry* geometry, std::span<const SumFacet> facets) {
+  return Arranger(geometry, facets, {}).Run(std::nullopt);
+}
+
 Arrangement Arrange(SumGeometry* geometry, std::span<const SumFacet> facets,
-                    std::span<const char> is_active) {
-  return Arranger(geometry, facets, is_active).Run();
+                    std::span<const char> is_active, std::span<const std::pair<int, int>> near) {
+  return Arranger(geometry, facets, is_active).Run(near);
 }
 
 }  // namespace touchstone::internal

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "touchstone/core/minkowski/facet_triage_internal.h"
@@ -64,14 +65,15 @@ struct Arrangement {
 
 // Cuts the facets. Points on segments are complete, sorted, and representatives.
 //
-// Facets that are not active only cut those that are: pairs of them are left out, and a group with
-// no active facet gets no walls. Of an active facet everything is as if all were active, given all
-// facets that meet it. An empty span: all are.
-//
 // Complexity: O(n log n + k + sum over groups of w^2) for k pairs of facets whose boxes meet and
 // w walls of a group.
+Arrangement Arrange(SumGeometry* geometry, std::span<const SumFacet> facets);
+
+// The same of some facets, called active. Others only cut them: a group with no active facet gets
+// no walls. Of an active facet everything is as above, given all facets that meet it, and all pairs
+// f < g of an active one and another that may meet, but where both name what they share.
 Arrangement Arrange(SumGeometry* geometry, std::span<const SumFacet> facets,
-                    std::span<const char> is_active = {});
+                    std::span<const char> is_active, std::span<const std::pair<int, int>> near);
 
 }  // namespace touchstone::internal
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "touchstone/core/mesh/box_tree.h"
-#include "touchstone/core/minkowski/box_lanes_internal.h"
 
 namespace touchstone::internal {
 namespace {
@@ -26,13 +25,16 @@ bool FindSides(SumGeometry* geometry, const ArrangedFacet& facet, int plane, Cor
 
 class PairFinder {
  public:
-  PairFinder(SumGeometry* geometry, std::span<const ArrangedFacet> facets,
-             std::span<const char> is_active)
-      : geometry_(*geometry), facets_(facets), is_active_(is_active), triage_(*geometry, facets) {}
+  PairFinder(SumGeometry* geometry, std::span<const ArrangedFacet> facets)
+      : geometry_(*geometry), facets_(facets), triage_(*geometry, facets) {}
 
-  FacetPairs Run() {
+  FacetPairs Run(std::optional<std::span<const std::pair<int, int>>> near) {
     FacetPairs result;
-    FindNear();
+    if (near) {
+      near_.assign(near->begin(), near->end());
+    } else {
+      FindNear();
+    }
     result.box_pairs = static_cast<long>(near_.size());
     std::erase_if(near_, [&](const auto& pair) {
       const auto& [f, g] = pair;
@@ -49,8 +51,6 @@ class PairFinder {
   }
 
  private:
-  bool IsActive(int f) const { return is_active_[f] != 0; }
-
   // Pairs whose boxes meet.
   void FindNear() {
     std::vector<Box3> boxes;
@@ -64,26 +64,7 @@ class PairFinder {
       }
       boxes.push_back(box);
     }
-    if (is_active_.empty()) {
-      BoxTree(boxes).MeetingItems(&near_);
-    } else {
-      FindNearActive(boxes);
-    }
-  }
-
-  // Each active one against all, in lanes. Few are active; a tree would find the pairs of the
-  // others, too.
-  void FindNearActive(std::span<const Box3> boxes) {
-    const BoxLanes lanes(boxes);
-    std::vector<int> hits;
-    for (int f = 0; f < static_cast<int>(boxes.size()); ++f) {
-      if (!IsActive(f)) continue;
-      hits.clear();
-      lanes.Meeting(boxes[f], &hits);
-      for (const int g : hits) {
-        if (g != f && (!IsActive(g) || f < g)) near_.push_back(std::minmax(f, g));
-      }
-    }
+    BoxTree(boxes).MeetingItems(&near_);
   }
 
   bool MayCross(FacetPair* pair) {
@@ -112,7 +93,6 @@ class PairFinder {
 
   SumGeometry& geometry_;
   const std::span<const ArrangedFacet> facets_;
-  const std::span<const char> is_active_;
   const FacetTriage triage_;
   std::vector<std::pair<int, int>> near_;
 };
@@ -144,8 +124,8 @@ std::optional<Trace> TraceOf(SumGeometry* geometry, const ArrangedFacet& facet,
 }  // namespace
 
 FacetPairs FindCrossingFacets(SumGeometry* geometry, std::span<const ArrangedFacet> facets,
-                              std::span<const char> is_active) {
-  return PairFinder(geometry, facets, is_active).Run();
+                              std::optional<std::span<const std::pair<int, int>>> near) {
+  return PairFinder(geometry, facets).Run(near);
 }
 
 std::optional<FacetCrossing> CrossingOf(SumGeometry* geometry,

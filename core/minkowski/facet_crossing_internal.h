@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "touchstone/core/minkowski/facet_triage_internal.h"
@@ -25,14 +26,13 @@ struct FacetPair {
 
 struct FacetPairs {
   std::vector<FacetPair> pairs;  // in order
-  long box_pairs = 0;            // pairs whose boxes meet
+  long box_pairs = 0;            // pairs compared
 };
 
-// All pairs of facets that may cross, but those with no active one; an empty span: all are active.
-// Coplanar ones are united. Complexity: O(n log n + k) for k pairs of boxes that meet if all are
-// active, else O(a n / 64 + k) for a active ones.
+// All pairs of facets that may cross: of those given, or of all. Coplanar ones are united.
+// Complexity: O(k) for k pairs given, else O(n log n + k) for k pairs of boxes that meet.
 FacetPairs FindCrossingFacets(SumGeometry* geometry, std::span<const ArrangedFacet> facets,
-                              std::span<const char> is_active);
+                              std::optional<std::span<const std::pair<int, int>>> near);
 
 // The segment in which two facets cross.
 struct FacetCrossing {

@@ -17,6 +17,8 @@ using Eigen::Vector3d;
 constexpr double kOffRotation = 2e-6;
 // Unit vectors made of roundings, and of placed points, are off by less where they are trusted.
 constexpr double kSlack = 1e-9;
+// Pairs are kept with a list that lasts for so many steps.
+constexpr double kStepsOfPairs = 5.0;
 // A padding that lasts for so many steps like the last one, if it stays below this part of the
 // ball's radius; else one that lasts for as many as it may, or none.
 constexpr double kSteps = 16.0, kLargestPart = 0.2;
@@ -66,6 +68,7 @@ bool GapFiller::IsWithinPadding(const Motion& motion) const {
 // By how the last step went; the first gathering has none.
 void GapFiller::ChoosePadding(const Motion& step, const ScaledBall& ball) {
   padding_ = {};
+  keeps_pairs_ = false;
   if (!has_last_) return;
   const double largest = kLargestPart * ball.radius();
   const double size = std::max({step.approach, 0.5 * step.spread, 1e-300});
@@ -73,6 +76,7 @@ void GapFiller::ChoosePadding(const Motion& step, const ScaledBall& ball) {
   if (!(steps >= 1.0)) return;
   padding_ = {steps * step.angle, steps * step.spread, steps * step.approach};
   if (padding_.angle > 0.5) padding_ = {};
+  keeps_pairs_ = padding_.angle > 0.0 && steps >= kStepsOfPairs;
 }
 
 const std::vector<GapCandidate>& GapFiller::Candidates(const MeshPair& pair, const GaussMap& map_a,
@@ -88,7 +92,13 @@ const std::vector<GapCandidate>& GapFiller::Candidates(const MeshPair& pair, con
     gathered_ = now;
     has_gathered_ = true;
     Gather(pair, map_a, map_b, ball, hierarchy);
+    // While the list lasts, the change of the rotation stays below that of the padding's spread.
+    if (keeps_pairs_) {
+      pairs_.Begin(pair, candidates_, padding_.spread,
+                   0.5 * padding_.spread / (now.scale * radius_of_b_));
+    }
   }
+  if (keeps_pairs_) pairs_.Place(pair);
   last_ = now;
   has_last_ = true;
   return candidates_;
@@ -110,7 +120,7 @@ void GapFiller::Gather(const MeshPair& pair, const GaussMap& map_a, const GaussM
     if (may == MaySupport::kNever) continue;
     const FacetCorners corners = RoundedCorners(pair, candidate);
     if (DistanceToPolygon(ball.center(), corners.points.data(), corners.count) > reach) continue;
-    candidates_.push_back({candidate, may == MaySupport::kAlways});
+    candidates_.push_back({candidate, may == MaySupport::kAlways, true});
     Box3 box = BoxOf(pair, corners);
     box.low -= Vector3d::Constant(padding_.spread);
     box.high += Vector3d::Constant(padding_.spread);
@@ -126,7 +136,7 @@ void GapFiller::Gather(const MeshPair& pair, const GaussMap& map_a, const GaussM
     const MaySupport may = Triage(pair, map_a, map_b, &candidate);
     if (may == MaySupport::kNever || !near_.MeetsAny(box)) continue;
     if (DistanceToPolygon(ball.center(), corners.points.data(), corners.count) > reach) {
-      candidates_.push_back({candidate, may == MaySupport::kAlways});
+      candidates_.push_back({candidate, may == MaySupport::kAlways, false});
     }
   }
 }

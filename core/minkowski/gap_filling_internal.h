@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "touchstone/core/mesh/mesh_pair.h"
+#include "touchstone/core/minkowski/gap_pairs_internal.h"
 #include "touchstone/core/minkowski/gather_internal.h"
 #include "touchstone/core/minkowski/sphere_hierarchy_internal.h"
 
@@ -34,12 +35,6 @@ struct Motion {
 // Of two features, at all poses within a padding.
 enum class MaySupport { kNever, kSometimes, kAlways };
 
-// Named as a facet; `is_along_cross` is set where they always support.
-struct GapCandidate {
-  SumFacet facet;
-  bool always_supports;
-};
-
 class GapFiller {
  public:
   explicit GapFiller(const TriangleMesh& b);
@@ -50,6 +45,8 @@ class GapFiller {
   const std::vector<GapCandidate>& Candidates(const MeshPair& pair, const GaussMap& map_a,
                                               const GaussMap& map_b, const ScaledBall& ball,
                                               SphereHierarchy* hierarchy);
+  // Which of them may cut each other; null where the list will not last long enough to repay them.
+  GapPairs* pairs() { return keeps_pairs_ ? &pairs_ : nullptr; }
   long gatherings() const { return gatherings_; }
 
  private:
@@ -80,6 +77,8 @@ class GapFiller {
   std::vector<SumFacet> found_;
   std::vector<GapCandidate> candidates_;
   NearBoxes near_;
+  GapPairs pairs_;
+  bool keeps_pairs_ = false;
   long gatherings_ = 0;
 };
 

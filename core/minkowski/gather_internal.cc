@@ -67,6 +67,37 @@ bool NearBoxes::MayMeetAny(const Box3& box) const { return !boxes_.empty() && Me
 
 bool NearBoxes::MeetsAny(const Box3& box) const { return MayMeetAny(box) && boxes_.MeetsAny(box); }
 
+void NearBoxes::Meeting(const Box3& box, std::vector<int>* hits) const {
+  if (MayMeetAny(box)) boxes_.Meeting(box, hits);
+}
+
+void FacetGathering::Clear() {
+  found_.clear();
+  near_.clear();
+}
+
+int FacetGathering::Add(const SumFacet& facet, bool is_active) {
+  found_.push_back({facet, static_cast<int>(found_.size()), is_active});
+  return found_.back().number;
+}
+
+void FacetGathering::MoveTo(GatheredFacets* gathered) {
+  std::sort(found_.begin(), found_.end(),
+            [](const Found& x, const Found& y) { return x.facet < y.facet; });
+  gathered->facets.clear();
+  gathered->is_active.clear();
+  gathered->near.clear();
+  place_of_number_.resize(found_.size());
+  for (const Found& found : found_) {
+    place_of_number_[found.number] = static_cast<int>(gathered->facets.size());
+    gathered->facets.push_back(found.facet);
+    gathered->is_active.push_back(found.is_active);
+  }
+  for (const auto& [f, g] : near_) {
+    gathered->near.push_back(std::minmax(place_of_number_[f], place_of_number_[g]));
+  }
+}
+
 std::optional<SumFacet> SupportedFacet(SupportSigns* signs, const TriangleMesh& a,
                                        const TriangleMesh& b, const SumFacet& candidate) {
   switch (candidate.kind) {
@@ -87,22 +118,30 @@ std::optional<SumFacet> SupportedFacet(SupportSigns* signs, const TriangleMesh& 
 }
 
 void SelectFacets(const MeshPair& pair, std::span<const SumFacet> facets, const ScaledBall& ball,
-                  NearBoxes* near, GatheredFacets* gathered) {
+                  NearBoxes* near, FacetGathering* gathering) {
   near->Clear();
-  std::vector<char> meets_ball(facets.size(), 0);
+  gathering->Clear();
   std::vector<Box3> boxes(facets.size());
+  std::vector<int> hits;
+  std::vector<char> is_active(facets.size(), 0);
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const FacetCorners corners = RoundedCorners(pair, facets[f]);
     boxes[f] = BoxOf(pair, corners);
-    meets_ball[f] = MeetsBall(corners, ball);
-    if (meets_ball[f]) near->Add(boxes[f]);
+    is_active[f] = MeetsBall(corners, ball);
+    if (!is_active[f]) continue;
+    const int number = gathering->Add(facets[f], true);
+    hits.clear();
+    near->Meeting(boxes[f], &hits);
+    for (const int g : hits) gathering->AddNear(g, number);
+    near->Add(boxes[f]);
   }
-  gathered->facets.clear();
-  gathered->is_active.clear();
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    if (!meets_ball[f] && !near->MeetsAny(boxes[f])) continue;
-    gathered->facets.push_back(facets[f]);
-    gathered->is_active.push_back(meets_ball[f]);
+    if (is_active[f]) continue;
+    hits.clear();
+    near->Meeting(boxes[f], &hits);
+    if (hits.empty()) continue;
+    const int number = gathering->Add(facets[f], false);
+    for (const int g : hits) gathering->AddNear(g, number);
   }
 }
 

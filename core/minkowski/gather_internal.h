@@ -8,6 +8,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "touchstone/core/mesh/box_tree.h"
@@ -37,6 +38,8 @@ class NearBoxes {
   void Add(const Box3& box);
   bool empty() const { return boxes_.empty(); }
   bool MeetsAny(const Box3& box) const;
+  // Appends the numbers of those that it meets, as they were added.
+  void Meeting(const Box3& box, std::vector<int>* hits) const;
   // False: it meets none. O(1).
   bool MayMeetAny(const Box3& box) const;
   // A box that holds all.
@@ -47,9 +50,31 @@ class NearBoxes {
   Box3 all_;
 };
 
+// Facets as they are found, in any order, and which of them are near each other.
+class FacetGathering {
+ public:
+  void Clear();
+  // The number of the facet added.
+  int Add(const SumFacet& facet, bool is_active);
+  // Of two facets added, one of them active.
+  void AddNear(int f, int g) { near_.emplace_back(f, g); }
+  // Puts them in order.
+  void MoveTo(GatheredFacets* gathered);
+
+ private:
+  struct Found {
+    SumFacet facet;
+    int number;
+    bool is_active;
+  };
+  std::vector<Found> found_;
+  std::vector<std::pair<int, int>> near_;
+  std::vector<int> place_of_number_;
+};
+
 // Of a sorted list of facets those that matter. Requires all of the convolution, or enough of it.
 void SelectFacets(const MeshPair& pair, std::span<const SumFacet> facets, const ScaledBall& ball,
-                  NearBoxes* near, GatheredFacets* gathered);
+                  NearBoxes* near, FacetGathering* gathering);
 
 // The facet of two features, given as its kind and their numbers, if they support each other.
 std::optional<SumFacet> SupportedFacet(SupportSigns* signs, const TriangleMesh& a,

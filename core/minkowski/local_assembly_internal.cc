@@ -34,7 +34,9 @@ class Assembler {
         geometry_(pair) {}
 
   void Run() {
-    arrangement_ = Arrange(&geometry_, gathered_.facets, gathered_.is_active);
+    arrangement_ = is_whole_
+                       ? Arrange(&geometry_, gathered_.facets)
+                       : Arrange(&geometry_, gathered_.facets, gathered_.is_active, gathered_.near);
     complex_ = FindCells(&geometry_, arrangement_);
     MeasurePieces();
     SelectCells();

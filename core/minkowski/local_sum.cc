@@ -75,6 +75,13 @@ class LocalMinkowskiSum::Implementation {
   const MeshPair& pair() const { return pair_; }
 
  private:
+  // A candidate of gap filling, in this update.
+  struct GapFacet {
+    std::optional<SumFacet> facet;  // if it supports, once that is asked
+    bool is_asked = false, is_active = false;
+    int number = -1;  // in the gathering
+  };
+
   // Keeps the storage.
   void Clear() {
     sum_.status = {};
@@ -102,7 +109,8 @@ class LocalMinkowskiSum::Implementation {
       case LocalBuilder::kBruteForce: {
         const std::vector<SumFacet> all = ReducedConvolution(pair_, map_a_, map_b_).facets;
         sum_.candidates = static_cast<long>(all.size());
-        internal::SelectFacets(pair_, all, ball, &near_, &gathered_);
+        internal::SelectFacets(pair_, all, ball, &near_, &gathering_);
+        gathering_.MoveTo(&gathered_);
         break;
       }
       case LocalBuilder::kSphereHierarchy:
@@ -119,7 +127,7 @@ class LocalMinkowskiSum::Implementation {
     internal::SupportSigns signs(pair_, map_a_, map_b_);
     hierarchy_->Place(pair_);
     near_.Clear();
-    supported_.clear();
+    gathering_.Clear();
     candidates_.clear();
     hierarchy_->NearBall(ball.center(), ball.gathering_reach(), &candidates_);
     sum_.candidates = static_cast<long>(candidates_.size());
@@ -128,51 +136,13 @@ class LocalMinkowskiSum::Implementation {
       if (!internal::MeetsBall(corners, ball)) continue;
       const auto facet = Supported(&signs, candidate);
       if (!facet) continue;
-      near_.Add(internal::BoxOf(pair_, corners));
-      supported_.emplace_back(*facet, 1);
+      const Box3 box = internal::BoxOf(pair_, corners);
+      FindHits(box);
+      AddHit(*facet, true);
+      near_.Add(box);
     }
     if (!near_.empty()) GatherCrossers(ball, &signs);
-    SortSupported();
-  }
-
-  void SortSupported() {
-    std::sort(supported_.begin(), supported_.end());
-    gathered_.facets.clear();
-    gathered_.is_active.clear();
-    for (const auto& [facet, is_active] : supported_) {
-      gathered_.facets.push_back(facet);
-      gathered_.is_active.push_back(is_active);
-    }
-  }
-
-  // Those of the list that support now: first those that meet the ball, then those near one.
-  void GatherByGapFilling(const internal::ScaledBall& ball) {
-    internal::SupportSigns signs(pair_, map_a_, map_b_);
-    const long gatherings = gap_filler_->gatherings();
-    const std::vector<internal::GapCandidate>& candidates =
-        gap_filler_->Candidates(pair_, map_a_, map_b_, ball, &*hierarchy_);
-    sum_.reused = gap_filler_->gatherings() == gatherings;
-    sum_.candidates = static_cast<long>(candidates.size());
-    near_.Clear();
-    supported_.clear();
-    others_.clear();
-    for (const auto& [candidate, always_supports] : candidates) {
-      const std::optional<SumFacet> facet =
-          always_supports ? candidate : Supported(&signs, candidate);
-      if (!facet) continue;
-      const internal::FacetCorners corners = internal::RoundedCorners(pair_, *facet);
-      const Box3 box = internal::BoxOf(pair_, corners);
-      if (internal::MeetsBall(corners, ball)) {
-        near_.Add(box);
-        supported_.emplace_back(*facet, 1);
-      } else {
-        others_.emplace_back(*facet, box);
-      }
-    }
-    for (const auto& [facet, box] : others_) {
-      if (near_.MeetsAny(box)) supported_.emplace_back(facet, 0);
-    }
-    SortSupported();
+    gathering_.MoveTo(&gathered_);
   }
 
   void GatherCrossers(const internal::ScaledBall& ball, internal::SupportSigns* signs) {
@@ -184,9 +154,92 @@ class LocalMinkowskiSum::Implementation {
       const Box3 box = internal::BoxOf(pair_, corners);
       if (!near_.MayMeetAny(box)) continue;
       const auto facet = Supported(signs, candidate);
-      if (!facet || !near_.MeetsAny(box) || internal::MeetsBall(corners, ball)) continue;
-      supported_.emplace_back(*facet, 0);
+      if (!facet) continue;
+      FindHits(box);
+      if (!hits_.empty() && !internal::MeetsBall(corners, ball)) AddHit(*facet, false);
     }
+  }
+
+  // Active facets that a box meets: they are numbered as their boxes are.
+  void FindHits(const Box3& box) {
+    hits_.clear();
+    near_.Meeting(box, &hits_);
+  }
+
+  void AddHit(const SumFacet& facet, bool is_active) {
+    const int number = gathering_.Add(facet, is_active);
+    for (const int active : hits_) gathering_.AddNear(active, number);
+  }
+
+  void GatherByGapFilling(const internal::ScaledBall& ball) {
+    internal::SupportSigns signs(pair_, map_a_, map_b_);
+    const long gatherings = gap_filler_->gatherings();
+    const std::vector<internal::GapCandidate>& candidates =
+        gap_filler_->Candidates(pair_, map_a_, map_b_, ball, &*hierarchy_);
+    sum_.reused = gap_filler_->gatherings() == gatherings;
+    sum_.candidates = static_cast<long>(candidates.size());
+    gathering_.Clear();
+    if (internal::GapPairs* pairs = gap_filler_->pairs()) {
+      GatherByPairs(candidates, ball, &signs, pairs);
+    } else {
+      GatherByBoxes(candidates, ball, &signs);
+    }
+    gathering_.MoveTo(&gathered_);
+  }
+
+  // Those of the list that support now: first those that meet the ball, then those near one.
+  void GatherByBoxes(std::span<const internal::GapCandidate> candidates,
+                     const internal::ScaledBall& ball, internal::SupportSigns* signs) {
+    near_.Clear();
+    others_.clear();
+    for (const internal::GapCandidate& candidate : candidates) {
+      const std::optional<SumFacet> facet = Supported(signs, candidate);
+      if (!facet) continue;
+      const internal::FacetCorners corners = internal::RoundedCorners(pair_, *facet);
+      const Box3 box = internal::BoxOf(pair_, corners);
+      if (candidate.may_meet_ball && internal::MeetsBall(corners, ball)) {
+        FindHits(box);
+        AddHit(*facet, true);
+        near_.Add(box);
+      } else {
+        others_.emplace_back(*facet, box);
+      }
+    }
+    for (const auto& [facet, box] : others_) {
+      FindHits(box);
+      if (!hits_.empty()) AddHit(facet, false);
+    }
+  }
+
+  // The same, but those that are not parted from one.
+  void GatherByPairs(std::span<const internal::GapCandidate> candidates,
+                     const internal::ScaledBall& ball, internal::SupportSigns* signs,
+                     internal::GapPairs* pairs) {
+    gap_facets_.assign(candidates.size(), {});
+    for (int i = 0; i < static_cast<int>(candidates.size()); ++i) {
+      if (!candidates[i].may_meet_ball) continue;
+      GapFacet& found = gap_facets_[i];
+      found = {Supported(signs, candidates[i]), true};
+      if (!found.facet || !internal::MeetsBall(pairs->CornersOf(i, *found.facet), ball)) continue;
+      found.is_active = true;
+      found.number = gathering_.Add(*found.facet, true);
+      pairs->List(i, *found.facet);
+    }
+    for (internal::GapPair& pair : pairs->pairs()) {
+      GapFacet &x = gap_facets_[pair.i], &y = gap_facets_[pair.j];
+      if (!pairs->HasExpired(pair) || !(x.is_active || y.is_active)) continue;
+      if (!y.is_asked) y = {Supported(signs, candidates[pair.j]), true};
+      if (!x.facet || !y.facet || pairs->IsParted(*x.facet, *y.facet, &pair)) continue;
+      for (GapFacet* found : {&x, &y}) {
+        if (found->number < 0) found->number = gathering_.Add(*found->facet, false);
+      }
+      gathering_.AddNear(x.number, y.number);
+    }
+  }
+
+  std::optional<SumFacet> Supported(internal::SupportSigns* signs,
+                                    const internal::GapCandidate& candidate) {
+    return candidate.always_supports ? candidate.facet : Supported(signs, candidate.facet);
   }
 
   std::optional<SumFacet> Supported(internal::SupportSigns* signs, const SumFacet& candidate) {
@@ -216,8 +269,10 @@ class LocalMinkowskiSum::Implementation {
   MembershipCache membership_cache_;
   internal::NearBoxes near_;
   std::vector<SumFacet> candidates_;
-  std::vector<std::pair<SumFacet, char>> supported_;
+  internal::FacetGathering gathering_;
+  std::vector<int> hits_;
   std::vector<std::pair<SumFacet, Box3>> others_;
+  std::vector<GapFacet> gap_facets_;
   internal::GatheredFacets gathered_;
   std::vector<SumFacet> facets_before_;
   LocalSum sum_;

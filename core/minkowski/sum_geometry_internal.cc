@@ -15,6 +15,26 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+BoundedVector FacetNormal(const MeshPair& pair, const SumFacet& facet) {
+  if (facet.kind == SumFacetKind::kFaceVertex) {
+    const FacePlane& plane = pair.a().planes[facet.a];
+    return {plane.normal, plane.error};
+  }
+  if (facet.kind == SumFacetKind::kVertexFace) {
+    const FacePlane& plane = pair.b().planes[facet.b];
+    return {-plane.normal, plane.error};
+  }
+  const auto edge_of = [](const PlacedMesh& placed, int edge) {
+    const int h = placed.mesh.half_edge_of(edge);
+    const Vector3d way = placed.points[placed.mesh.head(h)] - placed.points[placed.mesh.tail(h)];
+    return BoundedVector{way, 1.01 * (2.0 * placed.point_error + kUnit * MaxAbs(way))};
+  };
+  const BoundedVector a = edge_of(pair.a(), facet.a), b = edge_of(pair.b(), facet.b);
+  BoundedVector cross = CrossOf(a.value, a.error, b.value, b.error);
+  if (!facet.is_along_cross) cross.value = -cross.value;
+  return cross;
+}
+
 // Two corners and two points on crossings a facet, or so.
 void SumGeometry::Reserve(std::size_t facets) {
   points_.reserve(4 * facets);
@@ -97,33 +117,14 @@ SumPointName SumGeometry::NameOf(int point) const {
 }
 
 int SumGeometry::AddFacetPlane(const SumFacet& facet, const std::array<int, 4>& corners) {
-  SumPlane plane;
+  const BoundedVector normal = FacetNormal(pair_, facet);
+  SumPlane& plane = planes_.emplace_back();
+  plane.normal = normal.value;
+  plane.normal_error = normal.error;
   plane.points = corners;
   plane.facet = facet;
-  const auto of_face = [&](const PlacedMesh& placed, int face, double sign) {
-    plane.normal = sign * placed.planes[face].normal;
-    plane.normal_error = placed.planes[face].error;
-  };
-  if (facet.kind == SumFacetKind::kFaceVertex) {
-    of_face(pair_.a(), facet.a, 1.0);
-  } else if (facet.kind == SumFacetKind::kVertexFace) {
-    of_face(pair_.b(), facet.b, -1.0);
-  } else {
-    const TriangleMesh &a = pair_.a().mesh, &b = pair_.b().mesh;
-    const int ha = a.half_edge_of(facet.a), hb = b.half_edge_of(facet.b);
-    const Vector3d edge_a = pair_.a().points[a.head(ha)] - pair_.a().points[a.tail(ha)];
-    const Vector3d edge_b = pair_.b().points[b.head(hb)] - pair_.b().points[b.tail(hb)];
-    const auto error = [](const PlacedMesh& placed, const Vector3d& edge) {
-      return 1.01 * (2.0 * placed.point_error + kUnit * MaxAbs(edge));
-    };
-    const BoundedVector cross =
-        CrossOf(edge_a, error(pair_.a(), edge_a), edge_b, error(pair_.b(), edge_b));
-    plane.normal = facet.is_along_cross ? cross.value : Vector3d(-cross.value);
-    plane.normal_error = cross.error;
-  }
   plane.origin = points_[corners[0]].rounded;
   plane.origin_error = points_[corners[0]].error;
-  planes_.push_back(plane);
   roots_.push_back(static_cast<int>(roots_.size()));
   return roots_.back();
 }

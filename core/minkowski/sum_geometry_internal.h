@@ -18,6 +18,7 @@
 #include "touchstone/core/base/dyadic.h"
 #include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/mesh/translation.h"
+#include "touchstone/core/minkowski/bounded_vector_internal.h"
 #include "touchstone/core/minkowski/convolution.h"
 #include "touchstone/core/minkowski/flat_table_internal.h"
 #include "touchstone/core/minkowski/sum_point_name.h"
@@ -78,6 +79,9 @@ class KeptItems {
   std::vector<int> places_;
   std::deque<Item> items_;
 };
+
+// The outward normal of a facet, and how far each coordinate may be off.
+BoundedVector FacetNormal(const MeshPair& pair, const SumFacet& facet);
 
 class SumGeometry {
  public:
