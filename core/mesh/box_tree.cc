@@ -16,9 +16,14 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Box3 BoxOfFace(std::span<const Vector3d> points, const Triangle& face) {
+inline Box3 BoxOfFace(std::span<const Vector3d> points, const Triangle& face) {
   const Vector3d &a = points[face[0]], &b = points[face[1]], &c = points[face[2]];
-  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+  Box3 box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(std::min(a[axis], b[axis]), c[axis]);
+    box.high[axis] = std::max(std::max(a[axis], b[axis]), c[axis]);
+  }
+  return box;
 }
 
 // Parts `members` at `at` by their middles along the axis on which these spread most.
@@ -213,8 +218,13 @@ void BoxTree::FitBoxes(const BoxOf& box_of) {
       }
     }
     for (int axis = 0; axis < 3; ++axis) {
-      node->whole.low[axis] = *std::min_element(node->low[axis], node->low[axis] + kTreeWidth);
-      node->whole.high[axis] = *std::max_element(node->high[axis], node->high[axis] + kTreeWidth);
+      double low = node->low[axis][0], high = node->high[axis][0];
+      for (int lane = 1; lane < kTreeWidth; ++lane) {
+        low = std::min(low, node->low[axis][lane]);
+        high = std::max(high, node->high[axis][lane]);
+      }
+      node->whole.low[axis] = low;
+      node->whole.high[axis] = high;
     }
   }
   all_ = nodes_[0].whole;

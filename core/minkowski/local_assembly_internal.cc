@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -231,14 +232,14 @@ class Assembler {
     for (int i = 0; i < static_cast<int>(complex_.pieces.size()); ++i) {
       if (is_near_[i] && IsNearKept(i)) MarkEnds(i, &is_near_kept);
     }
-    std::vector<std::array<int, 3>> planes_of_points;  // point, plane, which way it faces
+    std::vector<std::uint64_t> planes_of_points;
     for (int i = 0; i < static_cast<int>(complex_.pieces.size()); ++i) {
       const Piece& piece = complex_.pieces[i];
       if (!is_near_[i] || (is_near_kept[piece.from] && is_near_kept[piece.to])) continue;
       const std::vector<FacingPlane>& planes = PlanesOf(i);
       for (const int point : {piece.from, piece.to}) {
         if (is_near_kept[point] || !IsInBall(point)) continue;
-        for (const auto& [plane, side] : planes) planes_of_points.push_back({point, plane, side});
+        for (const FacingPlane& plane : planes) planes_of_points.push_back(KeyOf(point, plane));
       }
       if (IsNearKept(i) || planes.size() < 3) continue;
       if (IsMiddleInM(piece.from, piece.to)) continue;
@@ -275,15 +276,22 @@ class Assembler {
     return planes_;
   }
 
-  void AddLonePoints(std::vector<std::array<int, 3>> planes_of_points,
+  // A point, a plane through it, and which way that faces: in one number, to be sorted.
+  static std::uint64_t KeyOf(int point, const FacingPlane& plane) {
+    return static_cast<std::uint64_t>(point) << 32 | static_cast<std::uint64_t>(plane[0]) << 1 |
+           static_cast<std::uint64_t>(plane[1]);
+  }
+
+  void AddLonePoints(std::vector<std::uint64_t> planes_of_points,
                      const std::vector<char>& is_near_kept) {
     std::sort(planes_of_points.begin(), planes_of_points.end());
     const auto last = std::unique(planes_of_points.begin(), planes_of_points.end());
     for (auto first = planes_of_points.begin(); first != last;) {
-      const int point = (*first)[0];
+      const int point = static_cast<int>(*first >> 32);
       planes_.clear();
-      for (; first != last && (*first)[0] == point; ++first) {
-        planes_.push_back({(*first)[1], (*first)[2]});
+      for (; first != last && static_cast<int>(*first >> 32) == point; ++first) {
+        const auto plane = static_cast<std::uint32_t>(*first);
+        planes_.push_back({static_cast<int>(plane >> 1), static_cast<int>(plane & 1)});
       }
       if (planes_.size() >= 4 && !is_near_kept[point] &&
           (!FaceOneSide(geometry_, planes_) || MayBeWithinFacet(point)) &&

@@ -76,12 +76,14 @@ void WallGraph::GatherEdges() {
 // Directions are s (n x n_h), and n . ((n x n_h) x (n x n_k)) = |n|² det(n, n_h, n_k).
 int WallGraph::Turn(int h, int k) {
   const int p = edges_[h / 2].line_plane, q = edges_[k / 2].line_plane;
+  if (p == q) return 0;
   return Sense(h) * Sense(k) * geometry_.NormalsDeterminant(group_->plane, p, q);
 }
 
 // For half-edges on one line.
 bool WallGraph::RunTheSameWay(int h, int k) {
   const int p = edges_[h / 2].line_plane, q = edges_[k / 2].line_plane;
+  if (p == q) return Sense(h) == Sense(k);
   const int axis = geometry_.LineAxis(group_->plane, p);
   return Sense(h) * geometry_.LineAlong(group_->plane, p, axis) ==
          Sense(k) * geometry_.LineAlong(group_->plane, q, axis);
