@@ -2,6 +2,7 @@
 #ifndef TOUCHSTONE_CORE_MINKOWSKI_FLAT_TABLE_INTERNAL_H_
 #define TOUCHSTONE_CORE_MINKOWSKI_FLAT_TABLE_INTERNAL_H_
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -41,6 +42,12 @@ class NumberTable {
     entries_[place] = {own, number};
     ++size_;
     return number;
+  }
+
+  // Keeps the room.
+  void Clear() {
+    if (size_ > 0) std::fill(entries_.begin(), entries_.end(), Entry());
+    size_ = 0;
   }
 
   // Makes room for so many things.

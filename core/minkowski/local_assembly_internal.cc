@@ -24,15 +24,16 @@ using Eigen::Vector3d;
 
 class Assembler {
  public:
-  Assembler(const MeshPair& pair, const GatheredFacets& gathered, const ScaledBall& ball,
+  Assembler(SumGeometry* geometry, const GatheredFacets& gathered, const ScaledBall& ball,
             AssemblyScope scope, MembershipCache* cache, LocalSum* sum)
-      : pair_(pair),
+      : geometry_(*geometry),
         gathered_(gathered),
         ball_(ball),
         is_whole_(scope == AssemblyScope::kWhole),
         cache_(*cache),
-        sum_(*sum),
-        geometry_(pair) {}
+        sum_(*sum) {
+    geometry_.Reset();
+  }
 
   void Run() {
     arrangement_ = is_whole_
@@ -218,8 +219,8 @@ class Assembler {
     if (number < 0) {
       number = static_cast<int>(sum_.vertices.size());
       const SumPoint& x = geometry_.point(point);
-      sum_.vertices.push_back(x.rounded / pair_.scale());
-      sum_.rounding = std::max(sum_.rounding, x.error / pair_.scale());
+      sum_.vertices.push_back(x.rounded / geometry_.pair().scale());
+      sum_.rounding = std::max(sum_.rounding, x.error / geometry_.pair().scale());
       sum_.names.push_back(geometry_.NameOf(point));
     }
     return number;
@@ -360,13 +361,12 @@ class Assembler {
     }
   }
 
-  const MeshPair& pair_;
+  SumGeometry& geometry_;
   const GatheredFacets& gathered_;
   const ScaledBall& ball_;
   const bool is_whole_;
   MembershipCache& cache_;
   LocalSum& sum_;
-  SumGeometry geometry_;
   Arrangement arrangement_;
   CellComplex complex_;
   std::vector<char> is_near_;      // pieces: in the ball
@@ -385,9 +385,9 @@ class Assembler {
 
 }  // namespace
 
-void AssembleLocalSum(const MeshPair& pair, const GatheredFacets& gathered, const ScaledBall& ball,
+void AssembleLocalSum(SumGeometry* geometry, const GatheredFacets& gathered, const ScaledBall& ball,
                       AssemblyScope scope, MembershipCache* cache, LocalSum* sum) {
-  Assembler(pair, gathered, ball, scope, cache, sum).Run();
+  Assembler(geometry, gathered, ball, scope, cache, sum).Run();
   FindNeighbors(sum);
   FindVertexNormals(sum);
 }

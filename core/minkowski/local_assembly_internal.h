@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "touchstone/core/mesh/membership.h"
-#include "touchstone/core/mesh/mesh_pair.h"
 #include "touchstone/core/minkowski/local_sum.h"
 #include "touchstone/core/minkowski/scaled_ball_internal.h"
+#include "touchstone/core/minkowski/sum_geometry_internal.h"
 
 namespace touchstone::internal {
 
@@ -30,8 +30,9 @@ enum class AssemblyScope {
 };
 
 // Fills everything in the sum that follows from the facets: all but `status`, `changes`, `dropped`
-// and `candidates`. Complexity: O(k log k) for k facets and crossings.
-void AssembleLocalSum(const MeshPair& pair, const GatheredFacets& gathered, const ScaledBall& ball,
+// and `candidates`. The geometry is the pair's, and is made anew in its storage. Complexity: O(k
+// log k) for k facets and crossings.
+void AssembleLocalSum(SumGeometry* geometry, const GatheredFacets& gathered, const ScaledBall& ball,
                       AssemblyScope scope, MembershipCache* cache, LocalSum* sum);
 
 }  // namespace touchstone::internal

@@ -65,7 +65,7 @@ class LocalMinkowskiSum::Implementation {
       sum_.gathered = std::count(gathered_.is_active.begin(), gathered_.is_active.end(), 1);
       const auto scope = options_.builder == LocalBuilder::kFull ? internal::AssemblyScope::kWhole
                                                                  : internal::AssemblyScope::kBall;
-      internal::AssembleLocalSum(pair_, gathered_, scaled, scope, &membership_cache_, &sum_);
+      internal::AssembleLocalSum(&geometry_, gathered_, scaled, scope, &membership_cache_, &sum_);
     }
     FindChanges();
     return sum_;
@@ -264,6 +264,7 @@ class LocalMinkowskiSum::Implementation {
   const LocalSumOptions options_;
   GaussMap map_a_, map_b_;
   MeshPair pair_;
+  internal::SumGeometry geometry_{pair_};
   std::optional<internal::SphereHierarchy> hierarchy_;
   std::optional<internal::GapFiller> gap_filler_;
   MembershipCache membership_cache_;

@@ -112,7 +112,8 @@ const SumGeometry::ExactPlane& SumGeometry::ExactPlaneOf(int plane) {
 ExactPoint SumGeometry::MakeExact(const SumPoint& point) {
   ExactPoint exact;
   if (point.form == SumPointForm::kVertex) {
-    exact.coordinates = exact_pair_.PointOfA(point.parts[0]) - exact_pair_.PointOfB(point.parts[1]);
+    exact.coordinates =
+        exact_pair().PointOfA(point.parts[0]) - exact_pair().PointOfB(point.parts[1]);
     return exact;
   }
   if (point.form == SumPointForm::kOnEdge) {

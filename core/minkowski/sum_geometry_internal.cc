@@ -35,6 +35,18 @@ BoundedVector FacetNormal(const MeshPair& pair, const SumFacet& facet) {
   return cross;
 }
 
+void SumGeometry::Reset() {
+  exact_pair_.reset();
+  points_.clear();
+  planes_.clear();
+  roots_.clear();
+  turns_.clear();
+  for (NumberTable* table : {&point_numbers_, &edge_planes_, &turn_numbers_}) table->Clear();
+  exact_points_.Clear();
+  exact_planes_.Clear();
+  exact_count_ = 0;
+}
+
 // Two corners and two points on crossings a facet, or so.
 void SumGeometry::Reserve(std::size_t facets) {
   points_.reserve(4 * facets);

@@ -74,6 +74,10 @@ class KeptItems {
     places_[i] = static_cast<int>(items_.size());
     return items_.emplace_back(std::move(item));
   }
+  void Clear() {
+    places_.clear();
+    items_.clear();
+  }
 
  private:
   std::vector<int> places_;
@@ -86,9 +90,12 @@ BoundedVector FacetNormal(const MeshPair& pair, const SumFacet& facet);
 class SumGeometry {
  public:
   // Keeps a reference to the pair.
-  explicit SumGeometry(const MeshPair& pair) : pair_(pair), exact_pair_(pair) {}
+  explicit SumGeometry(const MeshPair& pair) : pair_(pair) {}
 
   const MeshPair& pair() const { return pair_; }
+
+  // Forgets everything, since the pair was placed anew. Keeps the storage.
+  void Reset();
 
   // Makes room for so many facets.
   void Reserve(std::size_t facets);
@@ -140,7 +147,7 @@ class SumGeometry {
   void Sharpen(int point);
   // Times the factor of the pair's exact pose, not scaled.
   const ExactPoint& Exact(int point);
-  const Dyadic& factor() const { return exact_pair_.pose().factor(); }
+  const Dyadic& factor() { return exact_pair().pose().factor(); }
   // How many signs needed big numbers.
   long exact_count() const { return exact_count_; }
 
@@ -154,6 +161,10 @@ class SumGeometry {
     std::array<int, 3> points;  // in rising order
     int axis, sign;
   };
+  ExactMeshPair& exact_pair() {
+    if (!exact_pair_) exact_pair_.emplace(pair_);
+    return *exact_pair_;
+  }
   SumVertex VertexOf(int point) const;
   int Add(SumPointForm form, const std::array<int, 3>& parts);
   void RoundOnEdge(SumPoint* point) const;
@@ -174,7 +185,7 @@ class SumGeometry {
   ExactPoint MakeExact(const SumPoint& point);
 
   const MeshPair& pair_;
-  ExactMeshPair exact_pair_;
+  std::optional<ExactMeshPair> exact_pair_;  // once it is asked for
   std::vector<SumPoint> points_;
   std::vector<SumPlane> planes_;
   mutable std::vector<int> roots_;
