@@ -11,6 +11,7 @@
 #include "touchstone/core/minkowski/conform_internal.h"
 #include "touchstone/core/minkowski/gauss_arrangement_internal.h"
 #include "touchstone/core/minkowski/half_spaces_internal.h"
+#include "touchstone/core/minkowski/tangent_planes_internal.h"
 
 namespace touchstone {
 namespace {
@@ -21,18 +22,6 @@ using internal::Direction;
 using internal::GaussArrangement;
 using internal::HalfSpace;
 using internal::HalfSpaceIntersection;
-
-// A permutation by a fixed rule: planes in random order cut off few corners each.
-std::vector<int> Shuffled(int count) {
-  std::vector<int> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::uint64_t state = 0x9e3779b97f4a7c15u;
-  for (int i = count - 1; i > 0; --i) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    std::swap(order[i], order[(state >> 33) % static_cast<std::uint64_t>(i + 1)]);
-  }
-  return order;
-}
 
 // Near directions get near numbers, for the cache's sake: the bits of the three coordinates take
 // turns.
@@ -46,68 +35,6 @@ std::uint32_t CurvePosition(const Vector3d& direction) {
     }
   }
   return position;
-}
-
-bool IsConvex(const TriangleMesh& mesh) {
-  if (mesh.components().size() != 1) return false;
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_kind(e) == EdgeKind::kReflex) return false;
-  }
-  return true;
-}
-
-// The planes of a convex body's faces, one for each vertex of the arrangement, about the mean of
-// its vertices.
-std::vector<HalfSpace> OwnPlanes(const TriangleMesh& mesh, const GaussArrangement& arrangement) {
-  const std::vector<IntegerVector> points = ToCommonIntegers(mesh.vertices());
-  IntegerVector sum = {Integer(0), Integer(0), Integer(0)};
-  for (const IntegerVector& point : points) sum = sum + point;
-  const Integer count = mesh.vertex_count();
-  std::vector<HalfSpace> planes(arrangement.vertices.size());
-  for (int f = 0; f < mesh.face_count(); ++f) {
-    const int i = arrangement.vertex_of_face[f];
-    const IntegerVector& normal = arrangement.vertices[i].exact;
-    planes[i] = {normal, Dot(normal, Multiple(count, points[mesh.face(f)[0]]) + -sum)};
-  }
-  return planes;
-}
-
-// Tangent to the unit sphere, moved out by up to 2^-128 of the radius, by a fixed rule: points of
-// one circle on the sphere, which symmetric bodies have everywhere, would make corners of many
-// planes. Normals 2^-53 apart, the two halves of a rounded square, lie 2^-106 deep below each
-// other's planes: finer than that, each keeps the arcs on its own side. A normal of 192 digits
-// makes the offset as fine.
-HalfSpace NearlyTangentPlane(const Direction& direction, int number) {
-  const int shift = std::max(0, 192 - DigitsOf(direction.exact));
-  const IntegerVector normal = Shifted(direction.exact, shift);
-  const Integer length = sqrt(Dot(normal, normal)) + 1;
-  const std::uint64_t spread = static_cast<std::uint64_t>(number + 1) * 0x9e3779b97f4a7c15u;
-  return {normal, length + ((length * Integer(spread >> 32)) >> 160)};
-}
-
-// {x : n.x <= 1} for the rounded normal n.
-HalfSpace RoundedTangentPlane(const Direction& direction) {
-  const Vector3d both[] = {direction.unit, Vector3d::Ones()};
-  std::vector<IntegerVector> integers = ToCommonIntegers(both);
-  return {std::move(integers[0]), std::move(integers[1][0])};
-}
-
-// Cuts by all planes; plane k of the arrangement is number order^-1[k] + 4 of the polyhedron.
-HalfSpaceIntersection Intersection(const std::vector<Direction>& directions,
-                                   const std::vector<HalfSpace>& planes, bool keep_all,
-                                   std::vector<int>* plane_of_vertex) {
-  int digits = 0;
-  for (const HalfSpace& plane : planes) {
-    digits = std::max(
-        {digits, DigitsOf(plane.normal), DigitsOf({plane.offset, Integer(0), Integer(0)})});
-  }
-  HalfSpaceIntersection polyhedron(digits);
-  plane_of_vertex->assign(directions.size(), -1);
-  for (const int i : Shuffled(static_cast<int>(directions.size()))) {
-    polyhedron.Cut(directions[i], planes[i], keep_all);
-    (*plane_of_vertex)[i] = polyhedron.plane_count() - 1;
-  }
-  return polyhedron;
 }
 
 }  // namespace
@@ -365,12 +292,12 @@ ConvexMap ConvexMap::AsPublished(const TriangleMesh& mesh, const GaussMap& map, 
   std::vector<Direction> directions;
   std::vector<HalfSpace> planes;
   for (int i = 0; i < arrangement.vertices.size(); ++i) {
-    planes.push_back(RoundedTangentPlane(arrangement.vertices[i]));
+    planes.push_back(internal::RoundedTangentPlane(arrangement.vertices[i]));
     directions.push_back(internal::MakeDirection(planes.back().normal));
   }
   std::vector<int> plane_of_vertex;
   const HalfSpaceIntersection polyhedron =
-      Intersection(directions, planes, false, &plane_of_vertex);
+      internal::IntersectionOf(directions, planes, false, &plane_of_vertex);
   std::vector<std::vector<int>> chains;
   for (const ArcPiece& piece : arrangement.pieces) {
     chains.push_back({plane_of_vertex[piece.tail], plane_of_vertex[piece.head]});
@@ -385,17 +312,18 @@ ConvexMap ConvexMap::Conforming(const TriangleMesh& mesh, const GaussMap& map, M
   const GaussArrangement arrangement = internal::ArrangeGaussMap(mesh, map, arcs == MapArcs::kAll);
   std::vector<Direction> directions;
   std::vector<HalfSpace> planes;
-  if (IsConvex(mesh)) planes = OwnPlanes(mesh, arrangement);
+  if (internal::IsConvexBody(mesh)) planes = internal::OwnPlanes(mesh, arrangement);
   const bool is_own = !planes.empty() && std::all_of(planes.begin(), planes.end(), [](auto& plane) {
     return plane.offset.sign() > 0;
   });
   if (!is_own) planes.clear();
   for (int i = 0; i < arrangement.vertices.size(); ++i) {
     directions.push_back(arrangement.vertices[i]);
-    if (!is_own) planes.push_back(NearlyTangentPlane(directions.back(), i));
+    if (!is_own) planes.push_back(internal::NearlyTangentPlane(directions.back(), i));
   }
   std::vector<int> plane_of_vertex;
-  HalfSpaceIntersection polyhedron = Intersection(directions, planes, true, &plane_of_vertex);
+  HalfSpaceIntersection polyhedron =
+      internal::IntersectionOf(directions, planes, true, &plane_of_vertex);
   const std::vector<std::vector<int>> chains =
       internal::MakeConforming(arrangement.pieces, arrangement.poles, plane_of_vertex, &polyhedron);
   ConvexMap result;

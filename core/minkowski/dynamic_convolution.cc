@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -13,28 +12,20 @@
 #include "touchstone/core/minkowski/gauss_arrangement_internal.h"
 #include "touchstone/core/minkowski/map_search_internal.h"
 #include "touchstone/core/minkowski/rotation_travel_internal.h"
+#include "touchstone/core/minkowski/sum_changes_internal.h"
 #include "touchstone/core/minkowski/support_signs_internal.h"
 
 namespace touchstone {
 namespace {
 
 using Eigen::Vector3d;
+using internal::ForEachMissing;
 using internal::MapSearch;
 using internal::RotationTravel;
 using internal::Side;
 using internal::SupportSigns;
 
 constexpr double kNever = -1.0;  // before any travel
-
-// Calls add for each of `from` that is not in `without`; both sorted.
-template <class T, class Add>
-void ForEachMissing(const std::vector<T>& from, const std::vector<T>& without, const Add& add) {
-  auto other = without.begin();
-  for (const T& item : from) {
-    while (other != without.end() && *other < item) ++other;
-    if (other == without.end() || item < *other) add(item);
-  }
-}
 
 }  // namespace
 
@@ -88,7 +79,7 @@ class DynamicConvolution::State {
     changes_.added.insert(changes_.added.end(), noted_.added.begin(), noted_.added.end());
     noted_.dropped.clear();
     noted_.added.clear();
-    Cancel();
+    internal::CancelChanges(&changes_, &net_);
     return changes_;
   }
 
@@ -346,19 +337,6 @@ class DynamicConvolution::State {
     ForEachMissing(found_facets_, feature->facets,
                    [&](const SumFacet& facet) { noted_.added.push_back(facet); });
     feature->facets.swap(found_facets_);
-  }
-
-  // Sorts the changes, and takes out what came and went between two updates.
-  void Cancel() {
-    std::sort(changes_.dropped.begin(), changes_.dropped.end());
-    std::sort(changes_.added.begin(), changes_.added.end());
-    net_.dropped.clear();
-    net_.added.clear();
-    std::set_difference(changes_.dropped.begin(), changes_.dropped.end(), changes_.added.begin(),
-                        changes_.added.end(), std::back_inserter(net_.dropped));
-    std::set_difference(changes_.added.begin(), changes_.added.end(), changes_.dropped.begin(),
-                        changes_.dropped.end(), std::back_inserter(net_.added));
-    std::swap(changes_, net_);
   }
 
   std::array<MappedMesh, 2> bodies_;
