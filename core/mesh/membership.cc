@@ -11,6 +11,7 @@
 
 #include "touchstone/core/mesh/point_in_mesh_internal.h"
 #include "touchstone/core/mesh/triangle_contact_internal.h"
+#include "touchstone/core/mesh/triangle_lanes_internal.h"
 
 namespace touchstone {
 namespace {
@@ -27,6 +28,14 @@ std::pair<int, int> FacesOf(const Crossing& crossing) {
 // Nodes compared from the first on where the children that share most are followed first: what
 // crosses is found early by that, if anything does.
 constexpr int kOrdered = 16;
+// Pairs of lanes that meet from which on it pays to gather their triangles into lanes: of two
+// nodes, and of a face and a node.
+constexpr int kMany = 12, kManyOfOne = 3;
+
+bool HasAtLeast(std::uint64_t bits, int count) {
+  for (int i = 1; i < count; ++i) bits &= bits - 1;
+  return bits != 0;
+}
 
 class Query {
  public:
@@ -112,11 +121,12 @@ class Query {
     if (a < 0) return CompareFaceOfA(~a, pair_.b().tree.node(b));
     if (b < 0) return CompareFaceOfB(pair_.a().tree.node(a), ~b);
     const BoxNode &node_a = pair_.a().tree.node(a), &node_b = pair_.b().tree.node(b);
+    const bool in_order = result_.box_tests <= kOrdered;
     std::uint8_t masks[kTreeWidth];
     MeetingLanes(node_a, node_b, offset_.value, offset_.error, masks);
     std::uint64_t hits;  // bit 8 j + i: lanes i of A and j of B
     std::memcpy(&hits, masks, sizeof hits);
-    const bool in_order = result_.box_tests <= kOrdered;
+    if (!in_order && HasAtLeast(hits, kMany)) hits = NotParted(node_a, node_b, hits);
     double most = -1.0;
     std::size_t best = 0;
     for (; hits != 0; hits &= hits - 1) {
@@ -141,18 +151,60 @@ class Query {
     return std::abs(volume);
   }
 
+  // The node's triangles in lanes; it is often the same one several times running.
+  struct NodeTriangles {
+    const BoxNode* node = nullptr;
+    internal::TriangleLanes lanes;
+  };
+  const internal::TriangleLanes& TrianglesOf(const PlacedMesh& body, const BoxNode& node,
+                                             NodeTriangles* triangles) const {
+    if (triangles->node != &node) triangles->lanes.Gather(body, node, offset_);
+    triangles->node = &node;
+    return triangles->lanes;
+  }
+
+  // Of the pairs of faces among the lanes, those that are not parted.
+  std::uint64_t NotParted(const BoxNode& node_a, const BoxNode& node_b, std::uint64_t hits) {
+    constexpr std::uint64_t kColumn = 0x0101010101010101, kGather = 0x0102040810204080;
+    const internal::TriangleLanes& lanes = TrianglesOf(pair_.b(), node_b, &triangles_of_b_);
+    for (int i = 0; i < node_a.lane_count; ++i) {
+      const std::uint64_t column = hits >> i & kColumn;
+      if (column == 0 || node_a.children[i] >= 0) continue;
+      const auto of_b = static_cast<unsigned>(column * kGather >> 56);  // bit j
+      const unsigned kept = Count(of_b, internal::LanesNotParted(pair_.a(), ~node_a.children[i],
+                                                                 lanes, offset_.value, offset_));
+      for (unsigned gone = of_b ^ kept; gone != 0; gone &= gone - 1) {
+        hits ^= std::uint64_t{1} << (kTreeWidth * std::countr_zero(gone) + i);
+      }
+    }
+    return hits;
+  }
+
+  // The hits that are not parted; the others were tests of triangles.
+  unsigned Count(unsigned hits, unsigned not_parted) {
+    result_.triangle_tests += std::popcount(hits & ~not_parted);
+    return hits & not_parted;
+  }
+
   bool CompareFaceOfA(int face, const BoxNode& node_b) {
-    for (unsigned hits = MeetingLanes(BoxOf(pair_.a(), face), node_b, offset_.value, offset_.error);
-         hits != 0; hits &= hits - 1) {
+    unsigned hits = MeetingLanes(BoxOf(pair_.a(), face), node_b, offset_.value, offset_.error);
+    if (result_.box_tests > kOrdered && HasAtLeast(hits, kManyOfOne)) {
+      const auto& lanes = TrianglesOf(pair_.b(), node_b, &triangles_of_b_);
+      hits = Count(hits, internal::LanesNotParted(pair_.a(), face, lanes, offset_.value, offset_));
+    }
+    for (; hits != 0; hits &= hits - 1) {
       if (CompareChildren(~face, node_b.children[std::countr_zero(hits)])) return true;
     }
     return false;
   }
 
   bool CompareFaceOfB(const BoxNode& node_a, int face) {
-    for (unsigned hits =
-             MeetingLanes(BoxOf(pair_.b(), face), node_a, -offset_.value, offset_.error);
-         hits != 0; hits &= hits - 1) {
+    unsigned hits = MeetingLanes(BoxOf(pair_.b(), face), node_a, -offset_.value, offset_.error);
+    if (result_.box_tests > kOrdered && HasAtLeast(hits, kManyOfOne)) {
+      const auto& lanes = TrianglesOf(pair_.a(), node_a, &triangles_of_a_);
+      hits = Count(hits, internal::LanesNotParted(pair_.b(), face, lanes, -offset_.value, offset_));
+    }
+    for (; hits != 0; hits &= hits - 1) {
       if (CompareChildren(node_a.children[std::countr_zero(hits)], ~face)) return true;
     }
     return false;
@@ -275,6 +327,7 @@ class Query {
   const bool is_exact_;
   const std::span<const std::pair<int, int>> contacts_;
   MembershipCache& cache_;
+  NodeTriangles triangles_of_a_, triangles_of_b_;
   MembershipResult result_;
 };
 

@@ -27,6 +27,9 @@ struct Offset {
   double for_length, for_error;
 };
 Offset MakeOffset(const MeshPair& pair, const Translation& x);
+// The least height of a point over a plane that is one for certain, where the point, the plane's
+// own and the offset were multiplied by the normal apart.
+double LeastHeight(const FacePlane& plane, const Offset& offset);
 
 // What doubles prove of two closed triangles.
 enum class Triage {

@@ -36,17 +36,11 @@ class Triager {
     return sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2];
   }
 
-  // The least height of a point over a plane that is one for certain, where the point, the plane's
-  // own and the offset were multiplied by the normal apart: see MakeOffset.
-  double LeastHeight(const FacePlane& plane) const {
-    return offset_.for_length * plane.length + offset_.for_error * plane.error + kUnderflow;
-  }
-
   // Whether the plane of A's face parts the triangles. Most pairs end here: no branch but the last.
   bool PlaneOfA() {
     const FacePlane& plane = pair_.a().planes[face_a_];
     const double height = plane.height - plane.normal.dot(offset_.value);
-    const double least = LeastHeight(plane);
+    const double least = LeastHeight(plane, offset_);
     const auto& points = pair_.b().points;
     const double heights[3] = {plane.normal.dot(points[corners_b_[0]]) - height,
                                plane.normal.dot(points[corners_b_[1]]) - height,
@@ -63,7 +57,7 @@ class Triager {
   bool PlaneOfB() {
     const FacePlane& plane = pair_.b().planes[face_b_];
     const double height = plane.height + plane.normal.dot(offset_.value);
-    const double least = LeastHeight(plane);
+    const double least = LeastHeight(plane, offset_);
     const auto& points = pair_.a().points;
     const double heights[3] = {plane.normal.dot(points[corners_a_[0]]) - height,
                                plane.normal.dot(points[corners_a_[1]]) - height,
@@ -237,6 +231,10 @@ Offset MakeOffset(const MeshPair& pair, const Translation& x) {
                        kUnderflow;
   const double reach = 2.0 + MaxAbs(value);
   return {value, error, 4.04 * error, 3.03 * (reach + error)};
+}
+
+double LeastHeight(const FacePlane& plane, const Offset& offset) {
+  return offset.for_length * plane.length + offset.for_error * plane.error + kUnderflow;
 }
 
 Triage TriageTriangles(const MeshPair& pair, int face_a, int face_b, const Offset& offset,
