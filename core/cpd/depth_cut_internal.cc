@@ -36,22 +36,23 @@ bool DepthSearcher::CutByPrism(const FacetPiece& piece, int number) {
   const Prism& prism = s_.prisms.prism(number);
   const FacetFrame& frame = FrameOf(piece);
   const double slack = SlackOf(piece);
-  FacetPiece rest = piece, parts[kPrismPlanes];
+  FacetPiece within[2], parts[kPrismPlanes];
+  const FacetPiece* rest = &piece;
   int count = 0;
   for (int k = 0; k < kPrismPlanes; ++k) {
     const Vector3d& normal = prism.normals[k];
     const Line2 line = {normal.dot(frame.u), normal.dot(frame.v),
                         prism.offsets[k] - frame.height * normal.dot(frame.normal) - slack};
-    if (IsWithin(rest, line)) continue;
-    if (rest.count >= kMaxPieceCorners) {
+    if (IsWithin(*rest, line)) continue;
+    if (rest->count >= kMaxPieceCorners) {
       Halve(piece);
       return true;
     }
-    FacetPiece in, out;
-    Part(rest, line, kPrismPlanes * number + k, &in, &out);
+    FacetPiece& in = within[rest == &within[0] ? 1 : 0];
+    Part(*rest, line, kPrismPlanes * number + k, &in, &parts[count]);
     if (in.count == 0) return false;
-    if (out.count > 0) parts[count++] = out;
-    rest = in;
+    if (parts[count].count > 0) ++count;
+    rest = &in;
   }
   ++s_.prism_uses[number];
   for (int k = 0; k < count; ++k) {

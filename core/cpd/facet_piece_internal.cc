@@ -125,15 +125,14 @@ void Part(const FacetPiece& piece, const Line2& line, int wall, FacetPiece* insi
     high = std::max(high, sides[i]);
   }
   if (high <= 0.0 || low >= 0.0) {
-    FacetPiece* whole = high <= 0.0 ? inside : outside;
-    FacetPiece* none = high <= 0.0 ? outside : inside;
-    if (whole != &piece) *whole = piece;
-    none->count = 0;
+    *(high <= 0.0 ? inside : outside) = piece;
+    (high <= 0.0 ? outside : inside)->count = 0;
     return;
   }
-  FacetPiece in, out;
+  FacetPiece &in = *inside, &out = *outside;
   in.facet = out.facet = piece.facet;
   in.cuts = out.cuts = piece.cuts + 1;
+  in.count = out.count = 0;
   for (int i = 0; i < piece.count; ++i) {
     const int next = i + 1 == piece.count ? 0 : i + 1;
     const double s = sides[i], t = sides[next];
@@ -152,8 +151,6 @@ void Part(const FacetPiece& piece, const Line2& line, int wall, FacetPiece* insi
       out.walls[out.count++] = s > 0.0 ? wall : piece.walls[i];
     }
   }
-  *inside = in;
-  *outside = out;
 }
 
 }  // namespace touchstone::internal

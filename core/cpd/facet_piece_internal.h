@@ -62,13 +62,15 @@ double DistanceToFacet(const MeshPair& pair, const SumFacet& name);
 // Sets the piece's nearest point and distance.
 void Measure(const FacetFrame& frame, FacetPiece* piece);
 
-// Parts a piece by a x + b y <= c. Either part may be empty (count 0); both may be `piece`'s own
-// copies. Requires room for one more corner.
+// The line a x + b y = c.
 struct Line2 {
   double a, b, c;
   double Beyond(const Eigen::Vector2d& x) const { return a * x[0] + b * x[1] - c; }
 };
+// Whether no corner is beyond the line.
 bool IsWithin(const FacetPiece& piece, const Line2& line);
+// Parts a piece by a x + b y <= c, into two others. Either may be empty (count 0), and neither is
+// measured. Requires room for one more corner.
 void Part(const FacetPiece& piece, const Line2& line, int wall, FacetPiece* inside,
           FacetPiece* outside);
 
