@@ -24,7 +24,7 @@ constexpr double kLeastBall = 1e-4;
 constexpr double kStep = 0x1p-40;
 // Radians to either side for differences: solutions are good to some 1e-14 of the size, which this
 // makes 1e-8; what is left out is its square times third derivatives, large near a fold only.
-constexpr double kTurn = 0x1p-18;
+constexpr double kTurn = 0x1p-20;
 
 }  // namespace
 
