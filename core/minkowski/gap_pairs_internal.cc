@@ -42,6 +42,7 @@ void GapPairs::Begin(const MeshPair& pair, std::span<const GapCandidate> candida
   items_.clear();
   placed_.assign(candidates.size(), {});
   is_listed_.assign(candidates.size(), 0);
+  stamp_ = 1;
   for (int i = 0; i < static_cast<int>(candidates.size()); ++i) {
     Item& item = items_.emplace_back(ItemOf(candidates[i].facet));
     item.box = BoxOf(pair, RoundedCorners(pair, candidates[i].facet));
