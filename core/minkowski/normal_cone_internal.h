@@ -10,6 +10,10 @@
 
 namespace touchstone::internal {
 
+// A cone that is wider than a half-space counts as all directions. With these for its cosine c and
+// sine s, c cos t - s sin t < -1 for every t up to a right angle, and c² - s² < -1.
+inline constexpr double kAllCosine = -2.0, kAllSine = 4.0;
+
 inline double SineOf(double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); }
 
 // A cone round two: all directions where they span a half-space or more.

@@ -21,9 +21,6 @@ constexpr int kWidth = SphereConeTree::kWidth;
 // Cosines and sines are moved by this much towards wider cones, and radii grow by this factor: a
 // pose may be off orthonormal by 1e-6, unit vectors and roundings by far less.
 constexpr double kPadding = 1e-5;
-// A cone that is wider than a half-space counts as all directions. With these for its cosine c and
-// sine s, c cos t - s sin t < -1 for every t up to a right angle, and c² - s² < -1.
-constexpr double kAllCosine = -2.0, kAllSine = 4.0;
 
 // The smallest sphere round two.
 void GrowSphere(FeatureBound* all, const FeatureBound& more) {
