@@ -17,8 +17,6 @@ using Eigen::Vector3d;
 constexpr double kOffRotation = 2e-6;
 // Unit vectors made of roundings, and of placed points, are off by less where they are trusted.
 constexpr double kSlack = 1e-9;
-// Pairs are kept with a list that lasts for so many steps.
-constexpr double kStepsOfPairs = 5.0;
 // A padding that lasts for so many steps like the last one, if it stays below this part of the
 // ball's radius; else one that lasts for as many as it may, or none.
 constexpr double kSteps = 16.0, kLargestPart = 0.2;
@@ -76,7 +74,8 @@ void GapFiller::ChoosePadding(const Motion& step, const ScaledBall& ball) {
   if (!(steps >= 1.0)) return;
   padding_ = {steps * step.angle, steps * step.spread, steps * step.approach};
   if (padding_.angle > 0.5) padding_ = {};
-  keeps_pairs_ = padding_.angle > 0.0 && steps >= kStepsOfPairs;
+  // Of longer steps more pairs come near each other than the list would repay.
+  keeps_pairs_ = padding_.angle > 0.0 && steps >= kSteps && padding_.spread <= largest;
 }
 
 const std::vector<GapCandidate>& GapFiller::Candidates(const MeshPair& pair, const GaussMap& map_a,
