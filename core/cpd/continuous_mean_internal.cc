@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "touchstone/core/cpd/continuous_solver_internal.h"
 
 namespace touchstone::internal {
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // Of the ball in which ∂M is made, over the radius of the mean: room for the walk.
 constexpr double kBallRoom = 1.25;
+// Radians to either side for differences.
+constexpr double kTurn = 0x1p-15;
+// Of the rate's size: what differences to either side may differ by, where third derivatives and
+// roundings leave no more than a hundredth of it. At a crease they differ by as much as they are.
+constexpr double kCrease = 0x1p-8;
 
 }  // namespace
 
@@ -74,6 +81,36 @@ void ContinuousSolver::TakeMean(const PhongPoint& point, bool continues) {
   result_.solutions = 1;
   result_.normal_radius = std::max(options_.normal_radius * point.position.norm(), least_radius_);
   Take(point, sum_->facets[sum_->facet_of_triangle[point.triangle]], continues, nullptr);
+}
+
+std::optional<Matrix3d> ContinuousSolver::MeanRateOfTurn() {
+  if (turned_ == nullptr) {
+    ContinuousDepthOptions options = options_;
+    options.track_branch = true;
+    turned_ = std::make_unique<ContinuousSolver>(a_.mesh(), b_.mesh(), options);
+  }
+  const auto at = [&](const Matrix3d& turn) -> std::optional<Vector3d> {
+    const auto pose = RelativePose::Make(turn * pose_.rotation(), pose_.translation());
+    if (!pose.ok()) return std::nullopt;
+    turned_->set_state(last_);
+    const ContinuousDepthResult result = turned_->Update(*pose);
+    if (result.status != ContinuousDepthStatus::kFound || result.branch_ended) return std::nullopt;
+    return result.translation;
+  };
+  const auto here = at(Matrix3d::Identity());
+  if (!here) return std::nullopt;
+  Matrix3d rate, bend;
+  for (int k = 0; k < 3; ++k) {
+    const auto turned = [&](double angle) {
+      return at(Eigen::AngleAxisd(angle, Vector3d::Unit(k)).toRotationMatrix());
+    };
+    const auto before = turned(-kTurn), after = turned(kTurn);
+    if (!before || !after) return std::nullopt;
+    rate.col(k) = (*after - *before) / (2.0 * kTurn);
+    bend.col(k) = (*after - *here - (*here - *before)) / kTurn;
+  }
+  if (!(bend.norm() <= kCrease * (rate.norm() + here->norm()))) return std::nullopt;
+  return rate;
 }
 
 }  // namespace touchstone::internal

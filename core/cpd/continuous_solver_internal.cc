@@ -120,10 +120,11 @@ std::optional<Vector3d> ContinuousSolver::OnPatchAt(const RelativePose& pose) {
 }
 
 std::optional<Matrix3d> ContinuousSolver::RateOfTurn() {
-  if (result_.status != ContinuousDepthStatus::kFound || !result_.rate_of_translation || !last_ ||
-      last_->patch == nullptr) {
+  if (result_.status != ContinuousDepthStatus::kFound || !result_.rate_of_translation || !last_) {
     return std::nullopt;
   }
+  if (options_.normal_radius > 0.0) return MeanRateOfTurn();
+  if (last_->patch == nullptr) return std::nullopt;
   std::optional<Matrix3d> rate = Matrix3d(Matrix3d::Zero());
   for (int k = 0; k < 3 && rate; ++k) {
     const auto at = [&](double angle) -> std::optional<Vector3d> {

@@ -71,6 +71,7 @@ class ContinuousSolver {
   void SearchByMeanNormals();
   bool Walk(Eigen::Vector3d from, PhongPoint* found);
   void TakeMean(const PhongPoint& point, bool continues);
+  std::optional<Eigen::Matrix3d> MeanRateOfTurn();
 
   // How far a solution may have moved since the last answer and still be it: ∂M moves there as the
   // point of B in contact does.
@@ -88,7 +89,8 @@ class ContinuousSolver {
   MeshDepthCache depth_cache_;
   MembershipCache membership_cache_, surface_membership_cache_;
   KeptPatch patch_;
-  KeptPatch turned_patch_;  // for rates
+  KeptPatch turned_patch_;                    // for rates
+  std::unique_ptr<ContinuousSolver> turned_;  // with mean normals
   RelativePose pose_;
   ContinuousDepthResult result_;
   std::optional<ContinuousDepthState> last_;
