@@ -26,10 +26,11 @@ void ContinuousSolver::SearchByMeanNormals() {
   best_misfit_ = std::numeric_limits<double>::infinity();
   PhongPoint found;
   if (options_.track_branch && last_ && last_->was_found && Walk(last_->translation, &found) &&
-      (found.position - last_->translation).norm() <= BranchReach()) {
+      (found.position - last_->translation).norm() <= branch_reach_) {
     TakeMean(found, true);
     return;
   }
+  if (part_ > 0) return;
   const auto begin = Clock::now();
   const Vector3d nearest = MeshPenetrationDepth(pair_, a_, b_, {}, &depth_cache_).translation;
   result_.depth_ms += Since(begin);

@@ -42,6 +42,10 @@ struct ContinuousDepthOptions {
   // Follows the solution of the answer before while it lasts; otherwise every answer is the nearest
   // of the local solutions, as definition (8) has it, and may jump between branches.
   bool track_branch = true;
+  // How far a branch may move in a step that is taken as it is, from one local sum to another, over
+  // what its rate makes of the motion: less tells more of the ends of branches, and halves more
+  // steps (ContinuousDepthResult::branch).
+  double sure_reach = 0.25;
   // Follows a branch on the triangles that it was found on while nothing comes in their way,
   // without a local sum. They stay the triangles they are: where a flat cell would be cut into
   // others, so that the normals in it would jump, it is not.
@@ -73,13 +77,19 @@ struct ContinuousDepthResult {
   std::optional<Eigen::Matrix3d> rate_of_translation;
 
   // Numbers the branches of solutions that a solver has followed; an answer is said to continue the
-  // one before iff they agree. What that means: without a local sum (iterations is 0), that it is
-  // the nearest solution on the same triangle of ∂M, by name, as the one before; with one, only
-  // that it is the nearest there is and no further than 16 times what the one before moves by its
-  // rate, were ∂M to move as the point of contact does. Of a solution that vanished within a step,
-  // another one as near is then taken for it: smaller steps tell.
+  // one before iff they agree. It is then the nearest solution, on the same triangle of ∂M by name
+  // (iterations is 0) or in a local sum, its index is the same, it is no further from the one
+  // before than (1 + rate) times the motion, times 2 on the same triangle or with mean normals and
+  // else times `sure_reach`, and no other solution is that near. The motion is that of the point of
+  // contact, and of q turned. Where this is not so, the motion is halved into `parts` until it is
+  // so of each, or its solution moves on as in the part before; 2^10 parts and 64 answers at most.
+  // A part of the last size may go 16 times as far; what is not followed so has ended. Poses
+  // between turn about one axis and move evenly. What this leaves: where ∂M's triangles change, a
+  // leap to a solution of the same index that is as near as that; README counts them.
   int branch = 0;
   bool branch_ended = false;           // the branch of the answer before was not found again
+  int parts = 1;                       // of the motion since the answer before, each followed
+  int index = 0;                       // of the solution: PhongPoint
   bool combinatorics_changed = false;  // the solution lies on another facet than before
   int solutions = 0;                   // found in the last local sum, or on the triangles kept
   // Proven, of the triangles that were made: none of them has a solution nearer to the one before,
@@ -112,6 +122,7 @@ struct ContinuousDepthState {
   RelativePose pose;
   Eigen::Vector3d translation;
   double rate;  // the norm of the solution's rate with the origin
+  int index;
   // A ball that holds the solution's triangle.
   Ball triangle;
   Eigen::Vector3d contact;  // where B is touched, in its own frame

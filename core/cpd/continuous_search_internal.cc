@@ -13,6 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Solutions are good to some 1e-14 of the size over how nearly they are multiple.
+constexpr double kSamePoint = 1e-10;
+
 double SquaredDistance(const Vector3d& p, const LocalSum& sum, int triangle) {
   const auto& [a, b, c] = sum.triangles[triangle];
   return (NearestOnTriangle(p, sum.vertices[a], sum.vertices[b], sum.vertices[c]) - p)
@@ -60,6 +63,7 @@ bool ContinuousSolver::HasBorder(int triangle) const {
 
 bool ContinuousSolver::Project() {
   if (sum_->triangles.empty()) {
+    if (part_ > 0) return true;
     radius_ *= options_.ball_growth;
     is_near_only_ = false;
     return false;
@@ -67,8 +71,9 @@ bool ContinuousSolver::Project() {
   PhongPoint chosen;
   bool continues = false;
   if (options_.track_branch && last_ && last_->was_found) {
-    continues = Nearest(last_->translation, BranchReach(), &chosen);
+    continues = Nearest(last_->translation, branch_reach_, &chosen);
   }
+  if (!continues && part_ > 0) return true;  // it is lost: nothing is found
   if (!continues && is_near_only_) {
     is_near_only_ = false;
     at_ = last_->translation;
@@ -112,22 +117,33 @@ bool ContinuousSolver::Nearest(const Vector3d& p, double reach, PhongPoint* chos
   phong.interpolation = options_.interpolation;
   phong.find_all = true;
   bool is_found = false;
+  // Others count where they may be taken for the branch.
+  const double near = reach < 1e150 ? best : 0.0;
+  double other = std::numeric_limits<double>::infinity();
   result_.solutions = 0;
   result_.is_nearest = true;
   for (const auto& [squared, t] : order_) {
-    if (squared > best) break;
+    if (squared > best && squared > near) break;
     points_.clear();
     const PhongCount count = ProjectOntoTriangle(surface_, t, phong, &points_);
     result_.solutions += count.points;
     result_.is_nearest = result_.is_nearest && count.is_complete;
     for (const PhongPoint& point : points_) {
       const double distance = (point.position - p).squaredNorm();
-      if (distance > best) continue;
+      // On a side it is found by both triangles.
+      const bool is_same =
+          is_found && (point.position - chosen->position).norm() <= kSamePoint / pair_.scale();
+      if (distance > best) {
+        if (!is_same) other = std::min(other, distance);
+        continue;
+      }
+      if (is_found && !is_same) other = std::min(other, best);
       best = distance;
       *chosen = point;
       is_found = true;
     }
   }
+  other_ = std::sqrt(other);
   return is_found;
 }
 

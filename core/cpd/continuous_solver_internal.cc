@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "touchstone/core/cpd/contact_name_internal.h"
@@ -16,6 +17,20 @@ using Eigen::Vector3d;
 // A solution moves no faster than its rate says, times this: between frames the rate itself
 // changes. Beyond, it is another one.
 constexpr double kBranchReach = 16.0;
+// What it moves by where nothing but the rate's own change comes on top.
+constexpr double kSmoothReach = 2.0;
+// And by which the rate itself changes, either way: it grows without bound where solutions meet.
+constexpr double kRateChange = 2.0;
+// Parts that a motion is halved into, at most.
+constexpr int kParts = 1024;
+// In one it is looked for this much farther than it is sure, and accepted there in the last.
+constexpr double kPartReach = 4.0;
+// And answers for them: what is not followed in so many is given up.
+constexpr int kAnswers = 64;
+// A part is as good where the solution goes on as in the part before it, but for this.
+constexpr double kSteady = 0.5;
+// What solutions move by roundings, over the size.
+constexpr double kStill = 1e-12;
 // The first ball has room for this much of it; if the branch is not there, the next has for α|q|.
 constexpr double kBallPart = 0.125;
 // The least ball, over the size of the pair: at a shallow touch α|q| would vanish.
@@ -46,18 +61,105 @@ Ball BallOf(const PhongSurface& surface, int triangle) {
 
 ContinuousDepthResult ContinuousSolver::Update(const RelativePose& pose) {
   const auto begin = Clock::now();
-  result_ = {};
-  pose_ = pose;
-  result_.branch = branch_;
-  if (Begin() && !FollowPatch()) {
-    if (options_.normal_radius > 0.0) {
-      SearchByMeanNormals();
-    } else {
-      Search();
-    }
+  const std::optional<ContinuousDepthState> before = last_;
+  Answer(pose);
+  if (before && before->was_found && options_.track_branch &&
+      result_.status == ContinuousDepthStatus::kFound && result_.branch == before->branch &&
+      !IsSure(*before)) {
+    AnswerInParts(*before);
   }
   result_.total_ms = Since(begin);
   return result_;
+}
+
+void ContinuousSolver::Answer(const RelativePose& pose) {
+  result_ = {};
+  pose_ = pose;
+  result_.branch = branch_;
+  other_ = std::numeric_limits<double>::infinity();
+  if (!Begin() || FollowPatch()) return;
+  if (options_.normal_radius > 0.0) {
+    SearchByMeanNormals();
+  } else {
+    Search();
+  }
+}
+
+// A normal that turns is an origin that moves sideways by as much of q.
+double ContinuousSolver::SureReach(const ContinuousDepthState& before) const {
+  const double turn = (pose_.rotation() - before.pose.rotation()).norm();
+  const double motion = MotionSince(before) + turn * before.translation.norm();
+  // On the same triangles by name the solution moves as smoothly as they do, and with mean normals
+  // as smoothly as M.
+  const bool is_smooth = result_.iterations == 0 || options_.normal_radius > 0.0;
+  const double reach = is_smooth ? kSmoothReach : options_.sure_reach;
+  return reach * (1.0 + before.rate) * motion + kStill / pair_.scale();
+}
+
+bool ContinuousSolver::IsSure(const ContinuousDepthState& before) const {
+  const double reach = SureReach(before);
+  const double change = (1.0 + last_->rate) / (1.0 + before.rate);
+  if (!(change <= kRateChange && change * kRateChange >= 1.0)) return false;
+  return result_.index == before.index && result_.index != 0 && other_ > reach &&
+         (result_.translation - before.translation).norm() <= reach;
+}
+
+void ContinuousSolver::AnswerInParts(const ContinuousDepthState& before) {
+  const RelativePose to = pose_;
+  const Eigen::Quaterniond first(before.pose.rotation()), last(to.rotation());
+  const auto at = [&](int done) {
+    const double s = static_cast<double>(done) / kParts;
+    return RelativePose::Make(first.slerp(s, last).toRotationMatrix(),
+                              (1.0 - s) * before.pose.translation() + s * to.translation());
+  };
+  double depth_ms = result_.depth_ms, minkowski_ms = result_.minkowski_ms,
+         phong_ms = result_.phong_ms;
+  ContinuousDepthState here = before;
+  std::optional<Vector3d> velocity;  // of the part before
+  int parts = 0;
+  int answers = 0;
+  for (int done = 0, part = kParts / 2; done < kParts;) {
+    last_ = here;
+    branch_ = before.branch;
+    part_ = part;
+    const auto pose = at(done + part);
+    if (pose.ok()) Answer(done + part == kParts ? to : *pose);
+    depth_ms += result_.depth_ms;
+    minkowski_ms += result_.minkowski_ms;
+    phong_ms += result_.phong_ms;
+    const bool continues = pose.ok() && result_.status == ContinuousDepthStatus::kFound &&
+                           result_.branch == before.branch && result_.index != -before.index;
+    const Vector3d moved = (result_.translation - here.translation) / part;
+    const bool goes_on = continues && velocity && other_ > 2.0 * part * moved.norm() &&
+                         (moved - *velocity).norm() <= kSteady * velocity->norm();
+    const bool is_sure = goes_on || (continues && IsSure(here));
+    const bool is_last = ++answers == kAnswers && done + part < kParts;
+    if (!is_sure && part > 1 && !is_last) {
+      part /= 2;
+      continue;
+    }
+    if (!continues || is_last) {
+      part_ = 0;
+      last_ = before;
+      branch_ = before.branch;
+      Answer(to);
+      if (last_ && result_.branch == before.branch) result_.branch = last_->branch = ++branch_;
+      result_.branch_ended = true;
+      break;
+    }
+    done += part;
+    here = *last_;
+    velocity = moved;
+    ++parts;
+    // Twice as far where that ends with a larger part.
+    if (is_sure && done % (2 * part) == 0) part *= 2;
+  }
+  part_ = 0;
+  if (!result_.branch_ended) result_.combinatorics_changed = before.features != result_.features;
+  result_.parts = std::max(parts, 1);
+  result_.depth_ms = depth_ms;
+  result_.minkowski_ms = minkowski_ms;
+  result_.phong_ms = phong_ms;
 }
 
 void ContinuousSolver::Forget() {
@@ -157,6 +259,7 @@ bool ContinuousSolver::Begin() {
   least_radius_ = kLeastBall / pair_.scale();
   is_near_only_ = false;
   if (last_) {
+    branch_reach_ = part_ > 0 ? kPartReach * SureReach(*last_) : BranchReach();
     at_ = last_->translation;
     radius_ = std::max(options_.ball_ratio * at_.norm(), least_radius_);
     if (options_.track_branch && last_->was_found) {
@@ -164,7 +267,8 @@ bool ContinuousSolver::Begin() {
       // can have gone.
       is_near_only_ = true;
       at_ = last_->triangle.center;
-      radius_ = last_->triangle.radius + std::max(kBallPart * BranchReach(), least_radius_);
+      const double room = part_ > 0 ? branch_reach_ : kBallPart * branch_reach_;
+      radius_ = last_->triangle.radius + std::max(room, least_radius_);
     }
   } else {
     at_ = MeshPenetrationDepth(pair_, a_, b_, {}, &depth_cache_).translation;
@@ -191,10 +295,15 @@ bool ContinuousSolver::FollowPatch() {
   points_.clear();
   result_.is_nearest = ProjectOntoTriangle(surface_, 0, phong, &points_).is_complete;
   const PhongPoint* chosen = nullptr;
-  double best = BranchReach();
+  double best = branch_reach_;
   for (const PhongPoint& point : points_) {
     const double distance = (point.position - last_->translation).norm();
-    if (distance < best) best = distance, chosen = &point;
+    if (distance < best) {
+      other_ = chosen != nullptr ? best : other_;
+      best = distance, chosen = &point;
+    } else {
+      other_ = std::min(other_, distance);
+    }
   }
   result_.phong_ms += Since(begin_phong);
   if (chosen == nullptr || !IsOutside(*chosen, patch_.NormalOf(shape->facet_of_triangle[0]))) {
@@ -216,10 +325,14 @@ bool ContinuousSolver::IsOutside(const PhongPoint& point, const Vector3d& normal
   return verdict == Verdict::kSeparate;
 }
 
+double ContinuousSolver::MotionSince(const ContinuousDepthState& before) const {
+  return ((pose_.rotation() - before.pose.rotation()) * before.contact + pose_.translation() -
+          before.pose.translation())
+      .norm();
+}
+
 double ContinuousSolver::BranchReach() const {
-  const Vector3d motion = (pose_.rotation() - last_->pose.rotation()) * last_->contact +
-                          pose_.translation() - last_->pose.translation();
-  return kBranchReach * (1.0 + last_->rate) * motion.norm() + 1e-12 / pair_.scale();
+  return kBranchReach * (1.0 + last_->rate) * MotionSince(*last_) + kStill / pair_.scale();
 }
 
 void ContinuousSolver::Take(const PhongPoint& point, const SumFacet& facet, bool continues,
@@ -234,7 +347,8 @@ void ContinuousSolver::Take(const PhongPoint& point, const SumFacet& facet, bool
   const Ball triangle = BallOf(surface_, point.triangle);
   result_.corner_angle = CornerAngle(surface_, point.triangle);
   SetTranslation(point.position, facet);
-  SetBranch(continues, true, point.rate ? point.rate->norm() : 1.0, triangle);
+  result_.index = point.index;
+  SetBranch(continues, &point, triangle);
   last_->at = point.at;
   last_->patch = std::move(patch);
 }
@@ -251,7 +365,7 @@ void ContinuousSolver::Approximate(ContinuousDepthStatus status) {
   }
   result_.residual = best_misfit_;
   SetTranslation(best_at_, best_facet_);
-  SetBranch(false, false, 1.0, {best_at_, 0.0});
+  SetBranch(false, nullptr, {best_at_, 0.0});
 }
 
 void ContinuousSolver::SetTranslation(const Vector3d& q, const SumFacet& facet) {
@@ -262,8 +376,7 @@ void ContinuousSolver::SetTranslation(const Vector3d& q, const SumFacet& facet) 
   result_.point_on_b = result_.point_on_a - q;
 }
 
-void ContinuousSolver::SetBranch(bool continues, bool was_found, double rate,
-                                 const Ball& triangle) {
+void ContinuousSolver::SetBranch(bool continues, const PhongPoint* found, const Ball& triangle) {
   result_.branch_ended = last_.has_value() && last_->was_found && !continues;
   result_.combinatorics_changed = last_.has_value() && last_->features != result_.features;
   if (!continues) ++branch_;
@@ -272,11 +385,12 @@ void ContinuousSolver::SetBranch(bool continues, bool was_found, double rate,
       pose_.rotation().transpose() * (result_.point_on_b - pose_.translation());
   last_ = ContinuousDepthState{pose_,
                                result_.translation,
-                               rate,
+                               found != nullptr && found->rate ? found->rate->norm() : 1.0,
+                               found != nullptr ? found->index : 0,
                                triangle,
                                contact,
                                result_.features,
-                               was_found,
+                               found != nullptr,
                                branch_,
                                Vector3d::Constant(1.0 / 3.0),
                                nullptr};

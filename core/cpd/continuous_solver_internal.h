@@ -45,6 +45,13 @@ class ContinuousSolver {
   std::optional<Eigen::Matrix3d> RateOfTurn();
 
  private:
+  void Answer(const RelativePose& pose);
+  // Whether the answer is the branch of the one before, beyond being the nearest in reach.
+  bool IsSure(const ContinuousDepthState& before) const;
+  double SureReach(const ContinuousDepthState& before) const;
+  // Asks again, in parts; ends the branch if one is lost.
+  void AnswerInParts(const ContinuousDepthState& before);
+
   // Line 2 to 6: where to begin. False if there is no overlap.
   bool Begin();
   // Looks for the branch on the triangles that it was on before, if they are still what they were.
@@ -76,11 +83,12 @@ class ContinuousSolver {
   // How far a solution may have moved since the last answer and still be it: ∂M moves there as the
   // point of B in contact does.
   double BranchReach() const;
+  double MotionSince(const ContinuousDepthState& before) const;
   void Take(const PhongPoint& point, const SumFacet& facet, bool continues,
             std::shared_ptr<const PatchShape> patch);
   void Approximate(ContinuousDepthStatus status);
   void SetTranslation(const Eigen::Vector3d& q, const SumFacet& facet);
-  void SetBranch(bool continues, bool was_found, double rate, const Ball& triangle);
+  void SetBranch(bool continues, const PhongPoint* found, const Ball& triangle);
 
   const ContinuousDepthOptions options_;
   const ContactBody a_, b_;
@@ -95,10 +103,14 @@ class ContinuousSolver {
   ContinuousDepthResult result_;
   std::optional<ContinuousDepthState> last_;
   int branch_ = 0;
-  int triangle_ = -1;  // of the last answer, in the last local sum or in its patch
+  double other_ = 0.0;  // how far from the answer before another solution is
+  int triangle_ = -1;   // of the last answer, in the last local sum or in its patch
 
   Eigen::Vector3d at_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0, least_radius_ = 0.0;
+  double branch_reach_ = 0.0;  // in which the branch is looked for
+  // Of the motion, that the branch alone is looked for in: 1 / kParts, or more; 0: all is.
+  int part_ = 0;
   bool is_near_only_ = false;  // the ball holds what a branch can have moved to, not α|q|
   const LocalSum* sum_ = nullptr;
   PhongSurface surface_;

@@ -204,6 +204,7 @@ class MeanWalk {
   PhongPoint PointHere(double residual) const {
     PhongPoint point;
     point.triangle = triangle_;
+    point.index = 1;  // n points the way back
     point.position = at_;
     point.residual = residual;
     const auto& [a, b, c] = surface_.triangles[triangle_];

@@ -283,6 +283,10 @@ class Projection {
       sides.col(0) = corners_.col(0) - corners_.col(2);
       sides.col(1) = corners_.col(1) - corners_.col(2);
       point.rate = sides * (here.jacobian.inverse() * here.basis);
+      // Of J^-1 Ψ on the plane: Ψ's determinant there has the sign of its rows' product along q.
+      const Vector3d normal = here.basis.row(0).transpose().cross(here.basis.row(1).transpose());
+      point.index =
+          (here.jacobian.determinant() > 0.0) == (normal.dot(here.position) > 0.0) ? 1 : -1;
     } else {
       point.multiplicity = 0;
     }

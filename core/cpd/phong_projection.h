@@ -65,9 +65,13 @@ struct PhongPoint {
   // The rate of q with a motion of the origin, 3 x 3; nothing at a multiple solution, where the
   // Jacobian vanishes.
   std::optional<Eigen::Matrix3d> rate;
-  // Of 1: simple. 0: not told. It is at a corner, where Ψ has no derivative; or solutions meet, or
+  // 1: simple. 0: not told. It is at a corner, where Ψ has no derivative; or solutions meet, or
   // come nearer to each other than some 2^-19 of the triangle. Newton alone tells by the Jacobian.
   int multiplicity = 1;
+  // Of a simple one, the sense of the map from the origin to q, along the plane: 1 where it is
+  // kept, as by the foot on a plane, -1 where it is turned over. Two that meet and vanish have
+  // opposite ones. 0 where it is not told.
+  int index = 0;
 };
 
 struct PhongCount {
