@@ -165,7 +165,7 @@ class ContinuousPenetrationDepth {
   // a crease in the pose, as where faces lie on faces. Nothing else. Not for a state that was put
   // back.
   //
-  // By central differences of the triangles' own solution, placed by name at poses 2^-18 radians
+  // By central differences of the triangles' own solution, placed by name at poses 2^-20 radians
   // off: good to some 1e-8 of the rate's size, and at least of the translation's. Places B seven
   // times, O(n) each. With mean normals of seven answers, 2^-15 radians off; a second solver's
   // memory is taken, once.
