@@ -12,9 +12,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Poses may be off orthonormal by 1e-6 in each entry of RᵀR: such a matrix is within 2e-6 of a
-// rotation in every direction.
-constexpr double kOffRotation = 2e-6;
+// Poses may be off orthonormal by 1e-6 in each entry of RᵀR: such a matrix is within 1.6e-6 of a
+// rotation in every direction, and one made of two world poses within twice that.
+constexpr double kOffRotation = 3.2e-6;
 // Unit vectors made of roundings, and of placed points, are off by less where they are trusted.
 constexpr double kSlack = 1e-9;
 // A padding that lasts for so many steps like the last one, if it stays below this part of the
@@ -46,9 +46,9 @@ GapFiller::Frame GapFiller::FrameOf(const MeshPair& pair, const ScaledBall& ball
 // frames it moves by the change of R times |b - b0|, and that of the rest; the difference of two
 // such points by the change of R times |b - b'| at most. The change of R, a difference of two
 // rotations by an angle δ, stretches nothing by more than 2 sin(δ/2), and its Frobenius norm is √2
-// times that.
+// times that. Matrices that are off rotations by e are off that by 2 e, and by √6 e in the norm.
 Motion GapFiller::MotionBetween(const Frame& x, const Frame& y) const {
-  const double change = (x.rotation - y.rotation).norm() / std::sqrt(2.0) + 3.0 * kOffRotation;
+  const double change = (x.rotation - y.rotation).norm() / std::sqrt(2.0) + 4.5 * kOffRotation;
   const double radius = x.scale * radius_of_b_;
   Motion motion;
   motion.angle = change < 1.0 ? 2.0 * std::asin(0.5 * change) + kOffRotation : 4.0;
