@@ -50,7 +50,8 @@ void ContinuousSolver::MakeLocalSum() {
   result_.minkowski_ms += Since(begin);
   surface_ = {sum_->vertices, sum_->triangles, sum_->neighbors, sum_->vertex_normals};
   if (options_.weights != NormalWeights::kAngle) {
-    normals_ = VertexNormals(sum_->vertices, sum_->triangles, options_.weights);
+    VertexNormals(sum_->vertices, sum_->triangles, options_.weights, sum_->triangle_normals,
+                  &normals_);
     surface_.normals = normals_;
   }
 }

@@ -167,22 +167,12 @@ PhongSurface KeptPatch::Surface(const MeshPair& pair, const PatchShape& shape,
                                 NormalWeights weights) {
   vertices_.resize(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) vertices_[i] = points_[i] / pair.scale();
-  if (weights != NormalWeights::kAngle) {
-    normals_ = VertexNormals(vertices_, shape.triangles, weights);
-  } else {
-    // By the facets' normals, as in local sums.
-    normals_.assign(points_.size(), Vector3d::Zero());
-    for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
-      const auto& corners = shape.triangles[t];
-      const Vector3d& normal = facets_[shape.facet_of_triangle[t]].normal;
-      for (int k = 0; k < 3; ++k) {
-        const Vector3d u = points_[corners[(k + 1) % 3]] - points_[corners[k]],
-                       v = points_[corners[(k + 2) % 3]] - points_[corners[k]];
-        normals_[corners[k]] += std::atan2(u.cross(v).norm(), u.dot(v)) * normal;
-      }
-    }
-    for (Vector3d& normal : normals_) normal = normal.stableNormalized();
+  // By the facets' normals, as in local sums.
+  triangle_normals_.resize(shape.triangles.size());
+  for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
+    triangle_normals_[t] = facets_[shape.facet_of_triangle[t]].normal;
   }
+  VertexNormals(vertices_, shape.triangles, weights, triangle_normals_, &normals_);
   return {vertices_, shape.triangles, {}, normals_};
 }
 

@@ -89,7 +89,7 @@ class KeptPatch {
 
   std::vector<PlacedFacet> facets_;
   std::vector<Eigen::Vector3d> points_;  // scaled
-  std::vector<Eigen::Vector3d> vertices_, normals_;
+  std::vector<Eigen::Vector3d> vertices_, triangle_normals_, normals_;
   Eigen::Vector3d low_, high_, center_;
   double radius_ = 0.0;
   CandidateList list_;

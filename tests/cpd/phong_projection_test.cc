@@ -55,6 +55,22 @@ struct Surface {
   PhongSurface View() const { return {vertices, triangles, neighbors, normals}; }
 };
 
+// Corners of a face that lie on one line but for their rounding make a triangle of any direction.
+TEST(VertexNormals, ThinTrianglesTellNone) {
+  const std::vector<Vector3d> vertices = {
+      {0, 0, 1}, {3, 1, 1}, {1, 1.0 / 3.0, 1.0 + 0x1p-50}, {-1, 4, 1}, {5, -6, 1}};
+  const std::vector<std::array<int, 3>> triangles = {{0, 1, 2}, {2, 1, 3}, {0, 2, 3}, {1, 0, 4}};
+  const std::vector<Vector3d> up(4, Vector3d::UnitZ());
+  for (const NormalWeights weights :
+       {NormalWeights::kAngle, NormalWeights::kArea, NormalWeights::kUniform}) {
+    for (const auto& given : {std::vector<Vector3d>(), up}) {
+      for (const Vector3d& normal : VertexNormals(vertices, triangles, weights, given)) {
+        EXPECT_LT((normal - Vector3d::UnitZ()).norm(), 1e-14);
+      }
+    }
+  }
+}
+
 TEST(PhongProjection, FindsPointsWhoseNormalIsTheDirection) {
   testing::Random random(7);
   int found = 0, missed = 0;
