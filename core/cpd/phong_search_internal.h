@@ -6,8 +6,8 @@
 //   here        meaning
 //   λ           barycentric coordinates in the triangle
 //   μ           in a cell of its subdivision
-//   b_ijk       Bernstein coefficients, i + j + k = 4: F = Σ b_ijk 4! / (i! j! k!) λ_0^i λ_1^j
-//   λ_2^k
+//   b_ijk       Bernstein coefficients, i + j + k = 4:
+//               F = Σ b_ijk 4! / (i! j! k!) λ_0^i λ_1^j λ_2^k
 #ifndef TOUCHSTONE_CORE_CPD_PHONG_SEARCH_INTERNAL_H_
 #define TOUCHSTONE_CORE_CPD_PHONG_SEARCH_INTERNAL_H_
 
