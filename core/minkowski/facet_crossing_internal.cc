@@ -37,9 +37,7 @@ class PairFinder {
     }
     result.box_pairs = static_cast<long>(near_.size());
     std::erase_if(near_, [&](const auto& pair) {
-      const auto& [f, g] = pair;
-      return AreOfOneVertex(facets_[f].name, facets_[g].name) || triage_.IsClear(f, g) ||
-             triage_.IsClear(g, f);
+      return triage_.IsClear(pair.first, pair.second) || triage_.IsClear(pair.second, pair.first);
     });
     // In a fixed order, however they were found: facets come sorted.
     std::sort(near_.begin(), near_.end());
@@ -72,7 +70,9 @@ class PairFinder {
     const SharedCorners shared = FindSharedCorners(x, y);
     if (shared.count == 1 && MeetInACorner(*pair, shared)) return false;
     const bool share_an_edge = shared.count >= 2;
-    if (share_an_edge && LieAcrossAnEdge(geometry_, x, y)) return false;
+    if (share_an_edge && (AreOfOneVertex(x.name, y.name) || LieAcrossAnEdge(geometry_, x, y))) {
+      return false;
+    }
     if (!FindSides(&geometry_, y, x.plane, &pair->of_g)) return false;
     if (std::all_of(pair->of_g.begin(), pair->of_g.end(), [](int side) { return side == 0; })) {
       geometry_.Unite(x.plane, y.plane);

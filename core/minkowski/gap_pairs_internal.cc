@@ -50,6 +50,17 @@ void GapPairs::Begin(const MeshPair& pair, std::span<const GapCandidate> candida
   }
 }
 
+// Two faces of one body that share a side, against one vertex of the other: surfaces do not fold,
+// so neither cuts the other.
+bool AreNeighbors(const MeshPair& pair, const SumFacet& x, const SumFacet& y) {
+  if (!AreOfOneVertex(x, y)) return false;
+  const bool is_of_a = x.kind == SumFacetKind::kFaceVertex;
+  const TriangleMesh& mesh = (is_of_a ? pair.a() : pair.b()).mesh;
+  const Triangle &p = mesh.face(is_of_a ? x.a : x.b), &q = mesh.face(is_of_a ? y.a : y.b);
+  return std::count_if(p.begin(), p.end(),
+                       [&](int v) { return std::find(q.begin(), q.end(), v) != q.end(); }) >= 2;
+}
+
 void GapPairs::List(int i, const SumFacet& facet) {
   if (is_listed_[i] != 0) return;
   is_listed_[i] = 1;
@@ -63,7 +74,7 @@ void GapPairs::List(int i, const SumFacet& facet) {
   const double last = 2.0 * travel_ + life_;
   for (const int j : hits_) {
     const SumFacet& other = candidates_[j].facet;
-    if (is_listed_[j] != 0 || AreOfOneVertex(facet, other)) continue;
+    if (is_listed_[j] != 0 || AreNeighbors(*pair_, facet, other)) continue;
     GapPair added{i, j, 0.0};
     IsParted(facet, other, &added);
     if (!(added.expiry > last)) pairs_.push_back(added);

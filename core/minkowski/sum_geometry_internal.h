@@ -51,9 +51,9 @@ struct SumPoint {
   double error;  // of each coordinate; infinite where doubles cannot tell
 };
 
-// Whether two facets are two faces of one body, against one vertex of the other. Surfaces are
-// embedded, so they share no more than the corners and edges that both name: neither cuts the
-// other, and a plane may have two names.
+// Whether two facets are two faces of one body, against one vertex of the other. If the faces share
+// a side they share no more, as surfaces do not fold: neither cuts the other, and a plane may have
+// two names. That faces apart from each other do not meet is not checked of a mesh, nor relied on.
 inline bool AreOfOneVertex(const SumFacet& x, const SumFacet& y) {
   if (x.kind != y.kind || x.kind == SumFacetKind::kEdgeEdge) return false;
   return x.kind == SumFacetKind::kFaceVertex ? x.b == y.b : x.a == y.a;
