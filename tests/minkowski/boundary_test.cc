@@ -237,6 +237,23 @@ TEST(SumBoundary, AgreesWithMembershipWhereFeaturesAlign) {
   }
 }
 
+// That components do not meet is not checked of a mesh: what is built is the sum of their union.
+TEST(SumBoundary, ComponentsThatCutEachOther) {
+  testing::Random random(40);
+  const Shape bars = Together(Box({-3.0, -0.5, -0.5}, {3.0, 0.5, 0.5}),
+                              Moved(Box({-0.4, -3.0, -0.4}, {0.4, 3.0, 0.4}), 1.0, {0.3, 0.2, 0}));
+  // Sharp corners reach into the creases.
+  for (const Shape& other : {Cone(3, 0.2, 3.0), Cone(5, 1.0, 2.0), Box({0, 0, 0}, {1, 2, 3})}) {
+    for (int i = 0; i < 8; ++i) {
+      SCOPED_TRACE(i);
+      const RelativePose pose = i == 0 ? RelativePose() : PoseOf(random.Rotation());
+      const Sum sum = SumOf(bars, other, pose);
+      ExpectClosed(sum.boundary);
+      ASSERT_NO_FATAL_FAILURE(ExpectMembershipAgrees(sum, 200, random));
+    }
+  }
+}
+
 // Handles: a ring with a pin through it, two rings, a frame with two holes.
 TEST(SumBoundary, EulerCharacteristics) {
   const auto characteristics = [](const Sum& sum) {
