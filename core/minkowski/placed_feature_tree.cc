@@ -16,6 +16,10 @@ using internal::kAllCosine;
 using internal::kAllSine;
 
 constexpr int kWidth = kFeatureTreeWidth;
+// A pose may be off orthonormal by 1e-6: directions that are placed by it are off unit length, and
+// off those that belong there, by less than 3e-6. What is measured along them is off by as much of
+// its size, and by 1e-5 where cosines and sines that are padded are no cone's; squares by 6e-6.
+constexpr double kOffLength = 2e-5, kOffSquare = 1e-5;
 
 void PlacedFeatureTree::Place(const FeatureTree& tree, const Eigen::Matrix3d& rotation,
                               const Vector3d& translation, double scale, double distance,
@@ -107,7 +111,7 @@ struct LaneBound {
 // above those of centres. A cone that bounds nothing tells nothing.
 TOUCHSTONE_INLINE bool AreAllOff(double squared, double along, double cosine, double sine,
                                  double most, double least) {
-  const double across = (squared - along * along) * sine * sine;
+  const double across = (squared * (1.0 + kOffSquare) - along * along) * sine * sine;
   const double above = along * cosine + most, below = along * cosine + least;
   const bool is_beside = along * along < squared * cosine * cosine;
   const bool is_under = (above < 0.0) & (across < above * above) & (is_beside | (along < 0.0));
@@ -119,7 +123,7 @@ TOUCHSTONE_INLINE bool AreAllOff(double squared, double along, double cosine, do
 // these |n.pole| is |to_pole| cos α - sqrt(1 - to_pole²) sin α at least.
 TOUCHSTONE_INLINE bool IsOffBelt(double to_pole, double cosine, double sine, double belt) {
   const double off = std::abs(to_pole) * cosine - belt;
-  return (off > 0.0) & (off * off > (1.0 - to_pole * to_pole) * sine * sine);
+  return (off > 0.0) & (off * off > (1.0 + kOffSquare - to_pole * to_pole) * sine * sine);
 }
 
 // Bit i: whether lane i of X meets Y. Loops in a form that compilers know to put into lanes.
@@ -143,8 +147,10 @@ TOUCHSTONE_INLINE std::uint64_t LanesThatMeet(const FeatureNode& x, const LaneBo
   for (int i = 0; i < kWidth; ++i) any |= meets[i];
   if (any == 0) return 0;
   for (int i = 0; i < kWidth; ++i) {
-    const double most = x.lift[i] + x.flat[i] + (y.highest - query.lowest),
-                 least = x.lift[i] - x.flat[i] + (y.lowest - query.reach);
+    // Lanes that are further apart than this have been told.
+    const double off = kOffLength * (x.radius[i] + (query.reach + y.radius));
+    const double most = x.lift[i] + x.flat[i] + (y.highest - query.lowest) + off,
+                 least = x.lift[i] - x.flat[i] + (y.lowest - query.reach) - off;
     const bool off_x = AreAllOff(squared[i], along_x[i], x.cosine[i], x.sine[i], most, least),
                off_y = AreAllOff(squared[i], along_y[i], y.cosine, y.sine, most, least);
     const double to_y =
@@ -194,15 +200,16 @@ double NearestSum(const FeatureNode& a, int i, const FeatureNode& b, int j) {
   const double c[3] = {a.centre[0][i] - b.centre[0][j], a.centre[1][i] - b.centre[1][j],
                        a.centre[2][i] - b.centre[2][j]};
   const double squared = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
-  double near = std::sqrt(squared) - (a.radius[i] + b.radius[j]);
-  const double lowest = a.lift[i] + b.lift[j] - a.flat[i] - b.flat[j];
+  const double length = std::sqrt(squared);
+  double near = length - (a.radius[i] + b.radius[j]);
+  const double lowest = a.lift[i] + b.lift[j] - a.flat[i] - b.flat[j] - kOffLength * length;
   const auto least_height = [&](const FeatureNode& node, int lane, double sign) {
     if (node.cosine[lane] < -1.0) return;
     const double along =
         sign * (c[0] * node.axis[0][lane] + c[1] * node.axis[1][lane] + c[2] * node.axis[2][lane]);
     const double cosine = node.cosine[lane];
     if (along < 0.0 && along * along >= squared * cosine * cosine) return;
-    const double across = std::sqrt(std::max(0.0, squared - along * along));
+    const double across = std::sqrt(std::max(0.0, squared * (1.0 + kOffSquare) - along * along));
     near = std::max(near, along * cosine - across * node.sine[lane] + lowest);
   };
   least_height(a, i, 1.0);

@@ -156,6 +156,36 @@ TEST(FeatureTree, PassesOverNoFacet) {
   EXPECT_GT(counts.parted, 500);
 }
 
+// Planes that pass a hair beyond the origin, of facets far aside, and rotations that are as far off
+// orthonormal as they may be.
+TEST(FeatureTree, PassesOverNoFacetWhosePlaneIsNear) {
+  Counts counts;
+  testing::Random random(7);
+  for (const char* name_a : {"star", "cone", "torus", "spiked"}) {
+    for (const char* name_b : {"star", "key", "torus"}) {
+      const ContactBody a(MustBuild(NamedShape(name_a, 60))), b(MustBuild(NamedShape(name_b, 40)));
+      SCOPED_TRACE(std::string(name_a) + " " + name_b);
+      for (int i = 0; i < 30; ++i) {
+        Matrix3d rotation = random.Rotation();
+        const Vector3d u = random.Direction(), v = random.Direction();
+        if (i % 2 == 0)
+          rotation *= Matrix3d::Identity() + 2.4e-7 * (u * v.transpose() + v * u.transpose());
+        const Vector3d translation = random.Direction();
+        const MeshPair pair(a.mesh(), b.mesh(), *RelativePose::Make(rotation, translation));
+        const auto facets = ConvolutionByBruteForce(pair, a.gauss_map(), b.gauss_map()).facets;
+        const int last = static_cast<int>(facets.size()) - 1;
+        const Polygon polygon = PolygonOf(pair, facets[random.Int(0, last)]);
+        if (!(polygon.normal.norm() > 1e-6)) continue;
+        const double height = std::pow(10.0, -random.Int(5, 8));
+        const Vector3d shift = (polygon.Height() - height) * polygon.normal.normalized();
+        const RelativePose pose = *RelativePose::Make(rotation, translation + shift / pair.scale());
+        ExpectBounds(a, b, pose, 0.0, 0.0, pose, &counts);
+      }
+    }
+  }
+  EXPECT_GT(counts.facets, 10000);
+}
+
 TEST(FeatureTree, HasRoomForMotions) {
   Counts counts;
   testing::Random random(6);
