@@ -126,44 +126,127 @@ TOUCHSTONE_INLINE bool IsOffBelt(double to_pole, double cosine, double sine, dou
   return (off > 0.0) & (off * off > (1.0 + kOffSquare - to_pole * to_pole) * sine * sine);
 }
 
-// Bit i: whether lane i of X meets Y. Loops in a form that compilers know to put into lanes.
-TOUCHSTONE_INLINE std::uint64_t LanesThatMeet(const FeatureNode& x, const LaneBound& y,
-                                              const FeatureQuery& query) {
-  double squared[kWidth], along_x[kWidth], along_y[kWidth];
-  std::int64_t meets[kWidth], any = 0;
-  for (int i = 0; i < kWidth; ++i) meets[i] = std::int64_t{1} << i;
+// Lanes of X against one lane of Y.
+struct Comparison {
+  double reach[kWidth];  // lanes whose centres are further apart do not meet
+  double squared[kWidth], along_x[kWidth], along_y[kWidth];  // c, and c along the axes
+  double most[kWidth], least[kWidth];  // heights of features above those of centres
+  std::int64_t meets[kWidth];          // bit i in lane i; else 0
+
+  TOUCHSTONE_INLINE std::uint64_t All() const {
+    std::uint64_t all = 0;
+    for (int i = 0; i < kWidth; ++i) all |= static_cast<std::uint64_t>(meets[i]);
+    return all;
+  }
+};
+
+TOUCHSTONE_INLINE void CompareSpheresAndCones(const FeatureNode& x, const LaneBound& y,
+                                              const FeatureQuery& query, Comparison* lanes) {
+  for (int i = 0; i < kWidth; ++i) lanes->meets[i] = std::int64_t{1} << i;
   for (int i = 0; i < kWidth; ++i) {
     const double c0 = x.centre[0][i] - y.centre[0], c1 = x.centre[1][i] - y.centre[1],
                  c2 = x.centre[2][i] - y.centre[2];
     const double n0 = x.axis[0][i], n1 = x.axis[1][i], n2 = x.axis[2][i];
-    squared[i] = c0 * c0 + c1 * c1 + c2 * c2;
-    along_x[i] = c0 * n0 + c1 * n1 + c2 * n2;
-    along_y[i] = -(c0 * y.axis[0] + c1 * y.axis[1] + c2 * y.axis[2]);
+    const double squared = c0 * c0 + c1 * c1 + c2 * c2;
+    lanes->squared[i] = squared;
+    lanes->along_x[i] = c0 * n0 + c1 * n1 + c2 * n2;
+    lanes->along_y[i] = -(c0 * y.axis[0] + c1 * y.axis[1] + c2 * y.axis[2]);
     const double reach = x.radius[i] + (query.reach + y.radius);
     const double between = -(n0 * y.axis[0] + n1 * y.axis[1] + n2 * y.axis[2]);
     const double widest = x.cosine[i] * y.cosine - x.sine[i] * y.sine;
-    meets[i] = ((squared[i] > reach * reach) | (between < widest)) ? 0 : meets[i];
+    lanes->reach[i] = reach;
+    lanes->meets[i] = ((squared > reach * reach) | (between < widest)) ? 0 : lanes->meets[i];
   }
-  for (int i = 0; i < kWidth; ++i) any |= meets[i];
-  if (any == 0) return 0;
+}
+
+TOUCHSTONE_INLINE void CompareHeights(const FeatureNode& x, const LaneBound& y,
+                                      const FeatureQuery& query, Comparison* lanes) {
   for (int i = 0; i < kWidth; ++i) {
-    // Lanes that are further apart than this have been told.
-    const double off = kOffLength * (x.radius[i] + (query.reach + y.radius));
+    const double off = kOffLength * lanes->reach[i];
     const double most = x.lift[i] + x.flat[i] + (y.highest - query.lowest) + off,
                  least = x.lift[i] - x.flat[i] + (y.lowest - query.reach) - off;
-    const bool off_x = AreAllOff(squared[i], along_x[i], x.cosine[i], x.sine[i], most, least),
-               off_y = AreAllOff(squared[i], along_y[i], y.cosine, y.sine, most, least);
+    lanes->most[i] = most;
+    lanes->least[i] = least;
+    const double squared = lanes->squared[i];
+    const bool off_x = AreAllOff(squared, lanes->along_x[i], x.cosine[i], x.sine[i], most, least),
+               off_y = AreAllOff(squared, lanes->along_y[i], y.cosine, y.sine, most, least);
     const double to_y =
                      x.axis[0][i] * y.pole[0] + x.axis[1][i] * y.pole[1] + x.axis[2][i] * y.pole[2],
                  to_x =
                      x.pole[0][i] * y.axis[0] + x.pole[1][i] * y.axis[1] + x.pole[2][i] * y.axis[2];
     const bool off_belt_y = IsOffBelt(to_y, x.cosine[i], x.sine[i], y.belt),
                off_belt_x = IsOffBelt(to_x, y.cosine, y.sine, x.belt[i]);
-    meets[i] = (off_x | off_y | off_belt_x | off_belt_y) ? 0 : meets[i];
+    lanes->meets[i] = (off_x | off_y | off_belt_x | off_belt_y) ? 0 : lanes->meets[i];
   }
-  std::uint64_t mask = 0;
-  for (int i = 0; i < kWidth; ++i) mask |= static_cast<std::uint64_t>(meets[i]);
-  return mask & ((std::uint64_t{1} << x.lane_count) - 1);
+}
+
+// Two belts leave little: a normal n within both is along the cross product w of their poles p and
+// q, one way or the other, but for what is within the belts. For whatever p and q,
+//
+//   w² n = (n.w) w + (n.p) q x w + (n.q) w x p,    (n.w)² = w² - |(n.p) q - (n.q) p|²,
+//
+// so with g = p.q and p, q of unit length w² n.v is (n.w) v.w, off by no more than `belt_p`
+// |v.p - g v.q| + `belt_q` |v.q - g v.p| =: e(v), and (n.w)² is w² at most, and at least
+// w² - (belt_p² + 2 |g| belt_p belt_q + belt_q²) =: `rest`. Lengths of p and q that are off by 3e-6
+// change `rest` by 1e-5 where it is positive, for then both belts are below 1, and e(v) by 1e-5 |v|
+// times either belt.
+//
+// Of both ways n must be told not to be: off a cone, as w² n.axis is below w² cos α, or of planes
+// that pass too low or too high.
+
+// Whether t v + k is negative for all t² from `rest` to `square`, t positive.
+TOUCHSTONE_INLINE bool IsNegative(double v, double k, double rest, double square) {
+  const bool at_most = (k < 0.0) & (square * (v * v) < k * k),
+             at_least = (k < 0.0) | (rest * (v * v) > k * k);
+  return ((v >= 0.0) & at_most) | ((v < 0.0) & at_least);
+}
+
+TOUCHSTONE_INLINE void CompareBelts(const FeatureNode& x, const LaneBound& y, Comparison* lanes) {
+  const double q0 = y.pole[0], q1 = y.pole[1], q2 = y.pole[2], belt_q = y.belt;
+  const double axis_y_q = -(y.axis[0] * q0 + y.axis[1] * q1 + y.axis[2] * q2);
+  for (int i = 0; i < kWidth; ++i) {
+    const double p0 = x.pole[0][i], p1 = x.pole[1][i], p2 = x.pole[2][i], belt_p = x.belt[i];
+    const double w0 = p1 * q2 - p2 * q1, w1 = p2 * q0 - p0 * q2, w2 = p0 * q1 - p1 * q0;
+    const double square = w0 * w0 + w1 * w1 + w2 * w2, g = p0 * q0 + p1 * q1 + p2 * q2;
+    const double rest = square - kOffSquare -
+                        (belt_p * belt_p + belt_q * belt_q + 2.0 * std::abs(g) * belt_p * belt_q);
+    const double c0 = x.centre[0][i] - y.centre[0], c1 = x.centre[1][i] - y.centre[1],
+                 c2 = x.centre[2][i] - y.centre[2];
+    const double cw = c0 * w0 + c1 * w1 + c2 * w2, cp = c0 * p0 + c1 * p1 + c2 * p2,
+                 cq = c0 * q0 + c1 * q1 + c2 * q2;
+    const double a0 = x.axis[0][i], a1 = x.axis[1][i], a2 = x.axis[2][i];
+    const double aw = a0 * w0 + a1 * w1 + a2 * w2, ap = a0 * p0 + a1 * p1 + a2 * p2,
+                 aq = a0 * q0 + a1 * q1 + a2 * q2;
+    const double bw = -(y.axis[0] * w0 + y.axis[1] * w1 + y.axis[2] * w2),
+                 bp = -(y.axis[0] * p0 + y.axis[1] * p1 + y.axis[2] * p2), bq = axis_y_q;
+    const double off_axis = kOffLength * (belt_p + belt_q);
+    const double error_c = belt_p * std::abs(cp - g * cq) + belt_q * std::abs(cq - g * cp) +
+                           off_axis * lanes->reach[i];
+    const double of_a = belt_p * std::abs(ap - g * aq) + belt_q * std::abs(aq - g * ap) + off_axis -
+                        square * x.cosine[i],
+                 of_b = belt_p * std::abs(bp - g * bq) + belt_q * std::abs(bq - g * bp) + off_axis -
+                        square * y.cosine,
+                 under = error_c + square * lanes->most[i],
+                 over = error_c - square * lanes->least[i];
+    const bool one_way = IsNegative(aw, of_a, rest, square) | IsNegative(bw, of_b, rest, square) |
+                         IsNegative(cw, under, rest, square) | IsNegative(-cw, over, rest, square);
+    const bool other_way =
+        IsNegative(-aw, of_a, rest, square) | IsNegative(-bw, of_b, rest, square) |
+        IsNegative(-cw, under, rest, square) | IsNegative(cw, over, rest, square);
+    lanes->meets[i] = ((rest > 0.0) & one_way & other_way) ? 0 : lanes->meets[i];
+  }
+}
+
+// Bit i: whether lane i of X meets Y. Loops in a form that compilers know to put into lanes.
+TOUCHSTONE_INLINE std::uint64_t LanesThatMeet(const FeatureNode& x, const LaneBound& y,
+                                              const FeatureQuery& query) {
+  Comparison lanes;
+  CompareSpheresAndCones(x, y, query, &lanes);
+  if (lanes.All() == 0) return 0;
+  CompareHeights(x, y, query, &lanes);
+  if (lanes.All() == 0) return 0;
+  CompareBelts(x, y, &lanes);
+  return lanes.All() & ((std::uint64_t{1} << x.lane_count) - 1);
 }
 
 // Byte j of the result is the mask of lanes of X that meet lane j of Y, for lanes in `lanes_of_y`.
