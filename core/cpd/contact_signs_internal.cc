@@ -93,9 +93,9 @@ bool MaySupportEitherWay(const MeshPair& pair, const ContactBody& a, const Conta
 }
 
 // A matrix's Frobenius norm bounds what it does to a unit vector, and is sqrt 2 times a small turn.
-MotionBound MotionOfB(const MeshPair& pair, const RelativePose& from) {
-  const double turn = (pair.pose().rotation() - from.rotation()).norm();
-  const double shift = (pair.pose().translation() - from.translation()).norm();
+MotionBound MotionOfB(const MeshPair& pair, const RelativePose& from, const RelativePose& to) {
+  const double turn = (to.rotation() - from.rotation()).norm();
+  const double shift = (to.translation() - from.translation()).norm();
   const double size = pair.b().mesh.max_coordinate();
   return {pair.scale() * (1.7321 * turn * size + shift) * kRoundUp, turn};
 }

@@ -32,11 +32,15 @@ bool MaySupport(const MeshPair& pair, const ContactBody& a, const ContactBody& b
 bool MaySupportEitherWay(const MeshPair& pair, const ContactBody& a, const ContactBody& b,
                          const SumFacet& facet, double angle = 0.0);
 
-// How far B's points move from another pose to the pair's, scaled, and how far it turns, at most.
+// How far B's points move from one pose to another, scaled, and how far it turns, at most; by
+// default to the pair's. Both are distances of poses: the triangle inequality holds.
 struct MotionBound {
   double distance, angle;
 };
-MotionBound MotionOfB(const MeshPair& pair, const RelativePose& from);
+MotionBound MotionOfB(const MeshPair& pair, const RelativePose& from, const RelativePose& to);
+inline MotionBound MotionOfB(const MeshPair& pair, const RelativePose& from) {
+  return MotionOfB(pair, from, pair.pose());
+}
 
 }  // namespace touchstone::internal
 

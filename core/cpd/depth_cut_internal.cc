@@ -13,6 +13,36 @@ namespace {
 constexpr double kCrumb = 0x1p-34;    // half the side of what is left open where nothing decides
 constexpr double kDeepInBall = 1e-3;  // then a ball buries more than a prism
 
+// Where a plane of a prism crosses the plane of a piece, and how far the piece goes beyond.
+struct CutLine {
+  Line2 line;
+  int plane;
+  double beyond;
+};
+
+// The lines that part the piece, the one that it goes furthest beyond first: what lies there, far
+// from the prism, stays one part (a seventh fewer pieces on the paper's scenes than by number).
+int LinesAcross(const FacetPiece& piece, const FacetFrame& frame, const Prism& prism, double slack,
+                CutLine lines[kPrismPlanes]) {
+  int count = 0;
+  for (int k = 0; k < kPrismPlanes; ++k) {
+    const Eigen::Vector3d& normal = prism.normals[k];
+    CutLine cut = {{normal.dot(frame.u), normal.dot(frame.v),
+                    prism.offsets[k] - frame.height * normal.dot(frame.normal) - slack},
+                   k,
+                   0.0};
+    for (int i = 0; i < piece.count; ++i) {
+      cut.beyond = std::max(cut.beyond, cut.line.Beyond(piece.at[i]));
+    }
+    if (!(cut.beyond > 0.0)) continue;
+    cut.beyond /= std::sqrt(cut.line.a * cut.line.a + cut.line.b * cut.line.b);
+    int at = count++;
+    for (; at > 0 && lines[at - 1].beyond < cut.beyond; --at) lines[at] = lines[at - 1];
+    lines[at] = cut;
+  }
+  return count;
+}
+
 }  // namespace
 
 using Eigen::Vector2d;
@@ -33,23 +63,20 @@ bool DepthSearcher::CutByKnown(const FacetPiece& piece, const Vector3d& x) {
 }
 
 bool DepthSearcher::CutByPrism(const FacetPiece& piece, int number) {
-  const Prism& prism = s_.prisms.prism(number);
   const FacetFrame& frame = FrameOf(piece);
-  const double slack = SlackOf(piece);
+  CutLine lines[kPrismPlanes];
+  const int line_count = LinesAcross(piece, frame, s_.prisms.prism(number), SlackOf(piece), lines);
   FacetPiece within[2], parts[kPrismPlanes];
   const FacetPiece* rest = &piece;
   int count = 0;
-  for (int k = 0; k < kPrismPlanes; ++k) {
-    const Vector3d& normal = prism.normals[k];
-    const Line2 line = {normal.dot(frame.u), normal.dot(frame.v),
-                        prism.offsets[k] - frame.height * normal.dot(frame.normal) - slack};
-    if (IsWithin(*rest, line)) continue;
+  for (const CutLine& cut : std::span(lines).first(line_count)) {
+    if (IsWithin(*rest, cut.line)) continue;
     if (rest->count >= kMaxPieceCorners) {
       Halve(piece);
       return true;
     }
     FacetPiece& in = within[rest == &within[0] ? 1 : 0];
-    Part(*rest, line, kPrismPlanes * number + k, &in, &parts[count]);
+    Part(*rest, cut.line, kPrismPlanes * number + cut.plane, &in, &parts[count]);
     if (in.count == 0) return false;
     if (parts[count].count > 0) ++count;
     rest = &in;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Features in the way of the origin: facets by trees, and by lists along slow motions.
+// Features in the way of the origin, by trees.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
@@ -13,9 +13,7 @@
 namespace touchstone::internal {
 namespace {
 
-constexpr double kListFrames = 8.0;  // steps of a motion that a list has room for
 constexpr double kInner = -0x1p-46;  // facets that have the origin on their inner side
-constexpr double kListAngle = 0.06;  // beyond, lists would hold too much
 constexpr double kReach = 4.0;       // times the radius: what is further off is not even noted
 
 std::uint64_t ItemKey(SumKind kind, int a, int b) {
@@ -28,63 +26,7 @@ std::uint64_t ItemKey(SumKind kind, int a, int b) {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-bool DepthSearcher::UseList() {
-  FeatureList& list = s_.list;
-  const bool is_of_these = list.a && list.b && list.a->IsSameAs(a_) && list.b->IsSameAs(b_) &&
-                           list.scale == pair_.scale();
-  if (is_of_these && answer_.upper <= list.limit) {
-    const MotionBound motion = MotionOfB(pair_, list.pose);
-    if (motion.distance <= list.distance && motion.angle <= list.angle) {
-      AddItems(motion.distance);
-      return true;
-    }
-  }
-  if (!answer_.was_warm || !s_.pose) return false;
-  const MotionBound step = MotionOfB(pair_, *s_.pose);
-  if (!(kListFrames * step.angle < kListAngle)) return false;
-  list.a = a_;
-  list.b = b_;
-  list.pose = pair_.pose();
-  list.scale = pair_.scale();
-  list.distance = kListFrames * step.distance + 0x1p-40;
-  list.angle = kListFrames * step.angle + 0x1p-40;
-  list.limit = 1.02 * answer_.upper + list.distance;
-  list.items.clear();
-  PlaceTrees(list.distance, list.angle);
-  is_listing_ = true;
-  radius_ = list.limit;
-  ExpandWithinRadius();
-  is_listing_ = false;
-  s_.later.clear();
-  std::sort(list.items.begin(), list.items.end(),
-            [](const NodePair& x, const NodePair& y) { return x.near < y.near; });
-  AddItems(0.0);
-  return true;
-}
-
-void DepthSearcher::AddItems(double motion) {
-  radius_ = answer_.upper;
-  for (const NodePair& item : s_.list.items) {
-    if (item.near - motion >= answer_.upper) break;
-    AddItem(item.kind, item.a, item.b);
-  }
-}
-
-void DepthSearcher::ListItem(SumKind kind, int a, int b) {
-  double near = 0.0;
-  if (kind == SumKind::kVertexVertex) {
-    near = EstimateVertex(pair_, {a, b}).norm() - 0x1p-44;
-  } else {
-    constexpr SumFacetKind kKinds[] = {SumFacetKind::kFaceVertex, SumFacetKind::kVertexFace,
-                                       SumFacetKind::kEdgeEdge};
-    const SumFacet facet = {kKinds[static_cast<int>(kind)], false, a, b};
-    if (!MaySupportEitherWay(pair_, a_, b_, facet, s_.list.angle)) return;
-    near = DistanceToFacet(pair_, facet);
-  }
-  if (near - s_.list.distance < s_.list.limit) s_.list.items.push_back({near, kind, a, b});
-}
-
-void DepthSearcher::PlaceTrees(double distance, double angle) {
+void DepthSearcher::PlaceTrees(const RelativePose& pose, double distance, double angle) {
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   const Vector3d zero = Vector3d::Zero();
   const double scale = pair_.scale();
@@ -92,14 +34,12 @@ void DepthSearcher::PlaceTrees(double distance, double angle) {
   s_.vertices_a.Place(a_.vertices(), identity, zero, scale);
   s_.edges_a.Place(a_.convex_edges(), identity, zero, scale);
   s_.locks_a.Place(a_.locking_vertices(), identity, zero, scale);
-  const Eigen::Matrix3d& rotation = pair_.pose().rotation();
-  const Vector3d& translation = pair_.pose().translation();
+  const Eigen::Matrix3d& rotation = pose.rotation();
+  const Vector3d& translation = pose.translation();
   s_.faces_b.Place(b_.faces(), rotation, translation, scale, distance, angle);
   s_.vertices_b.Place(b_.vertices(), rotation, translation, scale, distance, angle);
   s_.edges_b.Place(b_.convex_edges(), rotation, translation, scale, distance, angle);
   s_.locks_b.Place(b_.locking_vertices(), rotation, translation, scale, distance, angle);
-  s_.made.clear();
-  BeginAtRoots(is_listing_ ? s_.list.limit : kReach * radius_);
 }
 
 void DepthSearcher::BeginAtRoots(double reach) {
@@ -107,8 +47,7 @@ void DepthSearcher::BeginAtRoots(double reach) {
   made_before_ = s_.made.size();
   std::sort(s_.made.begin(), s_.made.end());
   s_.later.clear();
-  for (const SumKind kind :
-       {SumKind::kFaceVertex, SumKind::kVertexFace, SumKind::kEdgeEdge, SumKind::kVertexVertex}) {
+  for (const SumKind kind : kSumKinds) {
     if (!TreeA(kind).empty() && !TreeB(kind).empty()) s_.later.push_back({0.0, kind, 0, 0});
   }
 }
@@ -145,7 +84,7 @@ void DepthSearcher::ExpandWithinRadius() {
   if (radius_ > reach_) BeginAtRoots(kReach * radius_);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < s_.later.size(); ++i) {
-    if (!is_listing_ && s_.later[i].near >= answer_.upper) continue;
+    if (s_.later[i].near >= answer_.upper) continue;
     if (s_.later[i].near < radius_) {
       s_.stack.push_back(s_.later[i]);
     } else {
@@ -179,8 +118,9 @@ void DepthSearcher::Expand(const NodePair& pair) {
 
 void DepthSearcher::AddLanes(const NodePair& pair, const FeatureNode& a, int i,
                              const FeatureNode& b, int j) {
-  // Whatever the motion does, a ball and a facet move by no more than the distance each.
-  const double margin = is_listing_ ? s_.list.distance : 0.0;
+  // Lanes have room for facets at any pose of a list, and a ball moves by no more than the motion
+  // from here to there.
+  const double margin = listed_ ? listed_motion_ : 0.0;
   const double radius = a.radius[i] + b.radius[j] + margin;
   if (s_.balls.MayHold(radius)) {
     const Vector3d centre(a.centre[0][i] - b.centre[0][j], a.centre[1][i] - b.centre[1][j],
@@ -195,8 +135,8 @@ void DepthSearcher::AddLanes(const NodePair& pair, const FeatureNode& a, int i,
     (near < radius_ ? s_.stack : s_.later)
         .push_back({near, pair.kind, FeatureLanes::Next(child_a, pair.a, i),
                     FeatureLanes::Next(child_b, pair.b, j)});
-  } else if (is_listing_) {
-    ListItem(pair.kind, ~child_a, ~child_b);
+  } else if (listed_) {
+    listed_->items.push_back({0.0, pair.kind, ~child_a, ~child_b});
   } else if (!WasMade(pair.kind, ~child_a, ~child_b)) {
     AddItem(pair.kind, ~child_a, ~child_b);
   }

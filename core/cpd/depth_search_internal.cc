@@ -31,6 +31,7 @@ DepthAnswer DepthSearcher::Run() {
   PartBoxes();
   TryRemembered();
   Explore();
+  PrepareNextList();
   Remember();
   return answer_;
 }
@@ -38,6 +39,7 @@ DepthAnswer DepthSearcher::Run() {
 void DepthSearcher::Reset() {
   s_.stack.clear();
   s_.later.clear();
+  s_.made.clear();
   s_.facets.clear();
   s_.pieces.clear();
   s_.free_pieces.clear();
@@ -112,7 +114,7 @@ bool DepthSearcher::Push(const FacetPiece& piece) {
 void DepthSearcher::Explore() {
   if (!UseList()) {
     radius_ = answer_.was_warm ? answer_.upper : 0.0625 * answer_.upper;
-    PlaceTrees(0.0, 0.0);
+    PlaceTrees(pair_.pose(), 0.0, 0.0);
     ExpandWithinRadius();
   }
   while (true) {

@@ -20,6 +20,8 @@ namespace touchstone::internal {
 
 // Which features' sums a pair of nodes stands for.
 enum class SumKind : std::uint8_t { kFaceVertex, kVertexFace, kEdgeEdge, kVertexVertex };
+inline constexpr SumKind kSumKinds[] = {SumKind::kFaceVertex, SumKind::kVertexFace,
+                                        SumKind::kEdgeEdge, SumKind::kVertexVertex};
 
 // By the codes of FeatureLanes.
 struct NodePair {
@@ -35,19 +37,23 @@ struct MetFacet {
   SumVertex vertex;
 };
 
-// Pairs of features that can have a facet within `limit` of the origin at any pose near `pose`: one
-// that moves B's points by no more than `distance` (scaled) and turns it by no more than `angle`.
+// Pairs of features that can have a facet within `limit` of the origin at any pose near `middle`:
+// one that moves B's points by no more than `distance` (scaled) and turns it by no more than
+// `angle`. Made in two stages: pairs are collected, part by part, and then measured.
 struct FeatureList {
   std::optional<ContactBody> a, b;  // of which it was made; none: no list
-  RelativePose pose;
+  RelativePose middle;
   double scale = 0.0, limit = 0.0, distance = 0.0, angle = 0.0;
-  std::vector<NodePair> items;  // by the features' own numbers
+  std::vector<NodePair> open;   // pairs of nodes that are yet to be looked through
+  int node_pairs = 0;           // that have been
+  std::vector<NodePair> items;  // by the features' own numbers; `near` once they are measured
+  RelativePose measured_at;     // then in the order of `near`, at this pose
 };
 
 struct DepthScratch {
   // What the last answer was made of.
   std::optional<RelativePose> pose;
-  FeatureList list;
+  FeatureList list, next_list;
   std::optional<ContactName> answer;
   std::vector<PrismName> prism_names;
   std::vector<std::pair<int, int>> ball_faces;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The search for the depth: one query of it. Its stages are a file each: depth_expand,
+// The search for the depth: one query of it. Its stages are a file each: depth_expand, depth_list,
 // depth_witness, depth_cut, depth_decide, and the order of them in depth_search.
 #ifndef TOUCHSTONE_CORE_CPD_DEPTH_SEARCHER_INTERNAL_H_
 #define TOUCHSTONE_CORE_CPD_DEPTH_SEARCHER_INTERNAL_H_
@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 
+#include "touchstone/core/cpd/contact_signs_internal.h"
 #include "touchstone/core/cpd/depth_search_internal.h"
 
 namespace touchstone::internal {
@@ -59,18 +60,27 @@ class DepthSearcher {
   // Along a slow motion the pairs of features in the way are listed once, with room for the motion
   // to go on, and only looked through afterwards.
   bool UseList();
-  // A facet is no nearer than it was when it was listed, less the motion since.
-  void AddItems(double motion);
-  // Lists an item that can come within the limit, with its own distance: spheres round large faces
+  // Lists come from a cache that may have served another pair.
+  bool IsListOfPair(const FeatureList& list) const;
+  // Whether a list, complete or not, holds all that is in the way now, or at another pose.
+  bool IsListFor(const RelativePose& pose, const FeatureList& list) const;
+  void BeginList(const RelativePose& middle, const MotionBound& step, FeatureList* list) const;
+  // Looks through so many pairs of nodes.
+  void CollectItems(int most_pairs, FeatureList* list);
+  // Keeps items that can come within the limit, with their own distance: spheres round large faces
   // say little.
-  void ListItem(SumKind kind, int a, int b);
-  void PlaceTrees(double distance, double angle);
+  void MeasureItems(FeatureList* list) const;
+  // A facet is no nearer than it was when it was measured, less the motion since.
+  void AddItems();
+  // Where the motion is about to leave the list's room the next one is made, ahead of it, in parts.
+  void PrepareNextList();
+  void PlaceTrees(const RelativePose& pose, double distance, double angle);
   PlacedFeatureTree& TreeA(SumKind kind);
   PlacedFeatureTree& TreeB(SumKind kind);
   // All pairs of features again, of which those within the reach are seen.
   void BeginAtRoots(double reach);
   // Beyond, no pair of features is seen.
-  double Limit() const { return is_listing_ ? reach_ : std::min(reach_, answer_.upper); }
+  double Limit() const { return listed_ ? listed_->limit : std::min(reach_, answer_.upper); }
   // Whether an item was kept before that.
   bool WasMade(SumKind kind, int a, int b) const;
   // Makes all facets that may come within `radius_`, but for those made before; other pairs wait.
@@ -128,7 +138,9 @@ class DepthSearcher {
   std::size_t made_before_ = 0;  // of `made`: before it began at the roots again
   double open_ = std::numeric_limits<double>::infinity();
   bool found_ = false;
-  bool is_listing_ = false;
+  bool used_list_ = false;
+  FeatureList* listed_ = nullptr;  // whose items are collected
+  double listed_motion_ = 0.0;     // from here to any pose in its room
   int crumbs_ = 0;
 };
 

@@ -22,12 +22,20 @@ constexpr double kDeepEnough = 0x1p-9;  // of x in a prism that ends the walk
 constexpr double kNextTo = 0x1p-8;      // of x to a prism that the walk may go through first
 constexpr std::size_t kMostCorners = 32;
 
-// Calls visit(name, margin of x) for what the next corner is: from an edge and a face, the curve
-// goes on through the faces on both sides of the edge, to another edge of theirs or one of the
-// face's. Where x may lie on the wall of the face's side, also past it.
+struct Corner {
+  PrismName name;
+  double margin;       // of x
+  int come_from = -1;  // the face beside the edge that the curve came through
+  bool is_done = false;
+};
+
+// Calls visit(next corner): from an edge and a face, the curve goes on through the faces on both
+// sides of the edge, to another edge of theirs or one of the face's. Where x may lie on the wall of
+// the face's side, also past it.
 template <class Visit>
-void VisitNext(const MeshPair& pair, const PrismName& name, const Vector3d& x, double outside,
+void VisitNext(const MeshPair& pair, const Corner& corner, const Vector3d& x, double outside,
                const Visit& visit) {
+  const PrismName& name = corner.name;
   const PlacedMesh& of_edge = name.edge_is_of_a ? pair.a() : pair.b();
   const PlacedMesh& of_face = name.edge_is_of_a ? pair.b() : pair.a();
   const TriangleMesh &edges = of_edge.mesh, &faces = of_face.mesh;
@@ -36,12 +44,17 @@ void VisitNext(const MeshPair& pair, const PrismName& name, const Vector3d& x, d
   const int first = edges.half_edge_of(name.edge);
   for (const int h : {first, edges.twin(first)}) {
     const int side_face = TriangleMesh::face_of(h);
+    if (side_face == corner.come_from) continue;
     const MovedFace beside(of_edge, side_face, zero);
+    bool has_end = false;
     VisitPassages(beside, h % 3 + 1, 2, face, outside, [&](int k, double margin) {
-      visit({name.edge_is_of_a, edges.edge_of(3 * side_face + k), name.face}, margin);
+      visit({{name.edge_is_of_a, edges.edge_of(3 * side_face + k), name.face}, margin, side_face});
+      has_end = true;
     });
+    // Two triangles cross along a segment, and the corner is its other end.
+    if (has_end && outside == 0.0 && corner.margin > 0.0) continue;
     VisitPassages(face, 0, 3, beside, outside, [&](int k, double margin) {
-      visit({!name.edge_is_of_a, faces.edge_of(3 * name.face + k), side_face}, margin);
+      visit({{!name.edge_is_of_a, faces.edge_of(3 * name.face + k), side_face}, margin, name.face});
     });
   }
   if (outside == 0.0) return;
@@ -50,16 +63,10 @@ void VisitNext(const MeshPair& pair, const PrismName& name, const Vector3d& x, d
     const int past = TriangleMesh::face_of(faces.twin(3 * name.face + k));
     VisitPassages(beside, first % 3, 1, MovedFace(of_face, past, shift), outside,
                   [&](int, double margin) {
-                    visit({name.edge_is_of_a, name.edge, past}, margin);
+                    visit({{name.edge_is_of_a, name.edge, past}, margin});
                   });
   }
 }
-
-struct Corner {
-  PrismName name;
-  double margin;
-  bool is_done = false;
-};
 
 // Corners met, the deepest of them first.
 class Corners {
@@ -70,8 +77,8 @@ class Corners {
     return std::any_of(corners_, corners_ + count_,
                        [&](const Corner& c) { return c.name == name; });
   }
-  void Add(const PrismName& name, double margin) {
-    if (count_ < kMostCorners) corners_[count_++] = {name, margin};
+  void Add(const Corner& corner) {
+    if (count_ < kMostCorners) corners_[count_++] = corner;
   }
   // The deepest one that has not been taken; nothing if none is left.
   const Corner* Take() {
@@ -100,10 +107,10 @@ int DepthSearcher::WalkFrom(int number, const Vector3d& x, double least) {
     if (corner == nullptr) break;
     // Next to the start x may be on the wall of all that there is, just outside of what goes on.
     const double outside = look == 0 ? kNextTo : 0.0;
-    VisitNext(pair_, corner->name, x, outside, [&](const PrismName& name, double margin) {
-      if (corners.Has(name)) return;
-      corners.Add(name, margin);
-      if (margin > deepest) deepest = margin, best = name;
+    VisitNext(pair_, *corner, x, outside, [&](const Corner& next) {
+      if (corners.Has(next.name)) return;
+      corners.Add(next);
+      if (next.margin > deepest) deepest = next.margin, best = next.name;
     });
   }
   Prism prism;

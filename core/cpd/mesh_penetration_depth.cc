@@ -200,8 +200,10 @@ MeshDepthCache& MeshDepthCache::operator=(MeshDepthCache&&) noexcept = default;
 void MeshDepthCache::Clear() {
   scratch_->answer.reset();
   scratch_->pose.reset();
-  scratch_->list.a.reset();
-  scratch_->list.b.reset();
+  for (internal::FeatureList* list : {&scratch_->list, &scratch_->next_list}) {
+    list->a.reset();
+    list->b.reset();
+  }
   scratch_->prism_names.clear();
   scratch_->ball_faces.clear();
   scratch_->membership.crossing = {};

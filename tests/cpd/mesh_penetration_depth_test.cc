@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -391,6 +392,43 @@ TEST(MeshPenetrationDepth, ListsOfSlowMotionsMissNothing) {
     }
     EXPECT_GT(by_list, 25);
   }
+}
+
+// A motion that goes on is met by lists made ahead of it; one that turns back, halts, or shakes is
+// not where they were made for. Another pair in between leaves one half made.
+TEST(MeshPenetrationDepth, ListsMadeAheadMissNothing) {
+  const std::uint64_t seed = 29;
+  SCOPED_TRACE(seed);
+  testing::Random random(seed);
+  const Bodies others(Axes(4), Cone(40, 1.5, 4.0));
+  const char* const kNames[] = {"torus", "fish", "star", "spiked", "cup", "key"};
+  int by_list = 0, in_parts = 0;
+  for (int round = 0; round < 12; ++round) {
+    const Bodies bodies(NamedShape(kNames[random.Int(0, 5)], 120),
+                        NamedShape(kNames[random.Int(0, 5)], 90));
+    MeshDepthCache cache;
+    const Vector3d axis = random.Direction(), way = random.Direction();
+    const Matrix3d from = random.Rotation();
+    const Vector3d start = 0.3 * random.Direction();
+    const double step = 0.0004 * (1 << random.Int(0, 3));
+    double at = 0.0, pace = step;
+    for (int i = 0; i < 80; ++i) {
+      if (i % 20 == 19) pace = step * random.Int(-2, 2);
+      at += pace;
+      const bool shakes = round % 3 == 2 && i % 5 == 4;
+      const Vector3d shake = shakes ? Vector3d(2.0 * step * random.Direction()) : Vector3d::Zero();
+      const Matrix3d turn = Eigen::AngleAxisd(at, axis).toRotationMatrix();
+      const RelativePose pose = PoseOf(turn * from, start + at * way + shake);
+      if (round % 4 == 3 && i % 16 == 15) others.Depth(pose, {}, &cache);
+      const MeshDepthResult warm = bodies.Depth(pose, {}, &cache), cold = bodies.Depth(pose);
+      by_list += warm.node_pairs == 0;
+      in_parts += warm.node_pairs > 0 && 2 * warm.node_pairs < cold.node_pairs;
+      EXPECT_NEAR(warm.upper_bound, cold.upper_bound, 1e-8) << round << ' ' << i;
+      EXPECT_NEAR(warm.lower_bound, cold.lower_bound, 1e-8) << round << ' ' << i;
+    }
+  }
+  EXPECT_GT(by_list, 500) << in_parts;
+  EXPECT_GT(in_parts, 60) << by_list;
 }
 
 TEST(MeshPenetrationDepth, Invariances) {
