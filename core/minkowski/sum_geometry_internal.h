@@ -179,6 +179,7 @@ class SumGeometry {
   std::optional<int> TurnByNames(const std::array<int, 3>& points, int axis, int plane);
   std::optional<int> TurnAgainst(const std::array<int, 3>& points, int axis, int plane, int other);
   std::optional<SumVertex> VertexAbreast(const SumPoint& x, int axis) const;
+  int CompareBesideVertex(const SumPoint& x, const SumPoint& y, int axis) const;
   int ExactTurn(std::array<int, 3> points, int axis);
   bool IsVertexOfFlatFacet(const SumPoint& x, const SumFacet& facet) const;
   const ExactPlane& ExactPlaneOf(int plane);

@@ -152,6 +152,38 @@ std::optional<SumVertex> SumGeometry::VertexAbreast(const SumPoint& x, int axis)
   return u;
 }
 
+// Of points in which a plane crosses two edges that leave one vertex, however near to it. With h, k
+// and l the heights over the plane of the vertex v and of the edges' other ends a and b, the points
+// are v + h (a - v) / (h - k) and v + h (b - v) / (h - l), where h has one sign and k and l the
+// other: their difference is h ((a - v) (h - l) - (b - v) (h - k)) times what is positive.
+int SumGeometry::CompareBesideVertex(const SumPoint& x, const SumPoint& y, int axis) const {
+  if (x.form != SumPointForm::kOnEdge || y.form != SumPointForm::kOnEdge) return 0;
+  if (Root(x.parts[2]) != Root(y.parts[2])) return 0;
+  const int at_x = x.parts[0] == y.parts[0] || x.parts[0] == y.parts[1] ? 0 : 1;
+  if (x.parts[at_x] != y.parts[0] && x.parts[at_x] != y.parts[1]) return 0;
+  const int at_y = x.parts[at_x] == y.parts[0] ? 0 : 1;
+  const SumPoint &v = points_[x.parts[at_x]], &a = points_[x.parts[1 - at_x]],
+                 &b = points_[y.parts[1 - at_y]];
+  const SumPlane& plane = planes_[x.parts[2]];
+  const auto height_from = [&](const SumPoint& end) {
+    const Vector3d way = v.rounded - end.rounded;
+    return HeightAlong(plane.normal, plane.normal_error, way,
+                       1.01 * (v.error + end.error + kUnit * MaxAbs(way)));
+  };
+  const Estimate from_a = height_from(a), from_b = height_from(b);
+  const double to_a = a.rounded[axis] - v.rounded[axis], to_b = b.rounded[axis] - v.rounded[axis];
+  const double to_a_error = 1.01 * (a.error + v.error + kUnit * std::abs(to_a));
+  const double to_b_error = 1.01 * (b.error + v.error + kUnit * std::abs(to_b));
+  const double left = to_a * from_b.value, right = to_b * from_a.value;
+  const double error =
+      1.01 * ((std::abs(to_a) + to_a_error) * from_b.error + to_a_error * std::abs(from_b.value) +
+              (std::abs(to_b) + to_b_error) * from_a.error + to_b_error * std::abs(from_a.value) +
+              2.1 * kUnit * (std::abs(left) + std::abs(right))) +
+      kUnderflow;
+  // h - k has the sign of h.
+  return SignOf(left - right, error) * TriageSign(from_a);
+}
+
 int SumGeometry::Compare(int x, int y, int axis) {
   if (x == y) return 0;
   const SumPoint &p = points_[x], &q = points_[y];
@@ -165,6 +197,7 @@ int SumGeometry::Compare(int x, int y, int axis) {
     const double at_u = a.vertex(u->a)[axis], at_v = a.vertex(v->a)[axis];
     return at_u > at_v ? 1 : at_u < at_v ? -1 : 0;
   }
+  if (const int beside = CompareBesideVertex(p, q, axis)) return beside;
   ++exact_count_;
   const ExactPoint &a = Exact(x), &b = Exact(y);
   return (a.coordinates[axis] * b.denominator - b.coordinates[axis] * a.denominator).sign();
