@@ -142,7 +142,7 @@ class Builder {
     int& number = number_of_point_[point];
     if (number < 0) {
       number = static_cast<int>(result_.vertices.size());
-      const SumPoint& x = geometry_.point(point);
+      const SumPoint& x = geometry_.Sharp(point);
       result_.vertices.push_back(x.rounded / pair_.scale());
       result_.rounding = std::max(result_.rounding, x.error / pair_.scale());
       result_.names.push_back(geometry_.NameOf(point));

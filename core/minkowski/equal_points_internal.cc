@@ -2,7 +2,6 @@
 #include "touchstone/core/minkowski/equal_points_internal.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -13,27 +12,30 @@ namespace touchstone::internal {
 namespace {
 
 // Points are looked up in cells of this size, in scaled lengths (the pair is of size one); errors
-// are below half of it, so equal points lie in the same cell or in neighbouring ones.
-constexpr double kCell = 0x1p-36;
+// are below half of it, so equal points lie in the same cell or in neighbouring ones. Few points
+// are off by so much, and few that are not equal share a cell.
+constexpr double kCell = 0x1p-28;
 constexpr double kMaxError = 0.25 * kCell;
 
 class Finder {
  public:
-  explicit Finder(SumGeometry* geometry) : geometry_(*geometry), parent_(geometry->point_count()) {
+  explicit Finder(SumGeometry* geometry)
+      : geometry_(*geometry), parent_(geometry->point_count()), is_added_(parent_.size(), 0) {
     std::iota(parent_.begin(), parent_.end(), 0);
+    numbers_.Reserve(parent_.size());
+    cells_.reserve(parent_.size());
   }
 
   void Add(int point) {
-    if (is_added_.empty()) is_added_.resize(parent_.size(), 0);
     if (is_added_[point]) return;
     is_added_[point] = 1;
     if (!(geometry_.point(point).error < kMaxError)) geometry_.Sharpen(point);
     const SumPoint& x = geometry_.point(point);
-    // Every cell that the point's error reaches: eight at most.
+    // Every cell that the point's error reaches: eight at most. (Those at zero are twice as wide.)
     std::int64_t low[3], high[3];
     for (int i = 0; i < 3; ++i) {
-      low[i] = static_cast<std::int64_t>(std::floor((x.rounded[i] - x.error) / kCell));
-      high[i] = static_cast<std::int64_t>(std::floor((x.rounded[i] + x.error) / kCell));
+      low[i] = static_cast<std::int64_t>((x.rounded[i] - x.error) / kCell);
+      high[i] = static_cast<std::int64_t>((x.rounded[i] + x.error) / kCell);
     }
     for (std::int64_t i = low[0]; i <= high[0]; ++i) {
       for (std::int64_t j = low[1]; j <= high[1]; ++j) {
@@ -43,12 +45,15 @@ class Finder {
   }
 
   std::vector<int> Representatives() {
-    auto cells = ListByOwner<int>(static_cast<int>(hashes_.size()), [&](const auto& visit) {
-      for (const auto& [cell, point] : members_) visit(cell, point);
-    });
-    for (std::size_t c = 0; c < hashes_.size(); ++c) {
-      JoinEqual(
-          std::span(cells.items).subspan(cells.first[c], cells.first[c + 1] - cells.first[c]));
+    std::sort(others_.begin(), others_.end());
+    std::vector<int> points;
+    for (auto first = others_.begin(); first != others_.end();) {
+      const int cell = first->first;
+      points = {cells_[cell].point};
+      for (; first != others_.end() && first->first == cell; ++first) {
+        points.push_back(first->second);
+      }
+      JoinEqual(points);
     }
     for (std::size_t i = 0; i < parent_.size(); ++i) parent_[i] = Find(static_cast<int>(i));
     return std::move(parent_);
@@ -62,17 +67,19 @@ class Finder {
     return hash ^ (hash >> 31);
   }
 
-  void AddToCell(int point, std::uint64_t cell) {
-    const int count = static_cast<int>(hashes_.size());
-    const int number = cells_.Insert(cell, count, [&](int i) { return hashes_[i] == cell; });
-    if (number == count) hashes_.push_back(cell);
-    members_.emplace_back(number, point);
+  void AddToCell(int point, std::uint64_t hash) {
+    const int count = static_cast<int>(cells_.size());
+    const int number = numbers_.Insert(hash, count, [&](int i) { return cells_[i].hash == hash; });
+    if (number == count) {
+      cells_.push_back({hash, point});
+    } else {
+      others_.emplace_back(number, point);
+    }
   }
 
   // Points of one cell in their exact order: equal ones are neighbours. Bodies that are symmetric
   // up to rounding have many points in one cell, no two of them equal.
   void JoinEqual(std::span<int> points) {
-    if (points.size() < 2) return;
     std::sort(points.begin(), points.end(), [&](int x, int y) {
       for (int axis = 0; axis < 3; ++axis) {
         const int sign = geometry_.Compare(x, y, axis);
@@ -95,9 +102,13 @@ class Finder {
   SumGeometry& geometry_;
   std::vector<int> parent_;
   std::vector<char> is_added_;
-  NumberTable cells_;
-  std::vector<std::uint64_t> hashes_;         // of cells
-  std::vector<std::pair<int, int>> members_;  // cell, point
+  NumberTable numbers_;
+  struct Cell {
+    std::uint64_t hash;
+    int point;  // the first one
+  };
+  std::vector<Cell> cells_;
+  std::vector<std::pair<int, int>> others_;  // cell, and a point after its first
 };
 
 }  // namespace

@@ -218,7 +218,7 @@ class Assembler {
     int& number = number_of_point_[point];
     if (number < 0) {
       number = static_cast<int>(sum_.vertices.size());
-      const SumPoint& x = geometry_.point(point);
+      const SumPoint& x = geometry_.Sharp(point);
       sum_.vertices.push_back(x.rounded / geometry_.pair().scale());
       sum_.rounding = std::max(sum_.rounding, x.error / geometry_.pair().scale());
       sum_.names.push_back(geometry_.NameOf(point));

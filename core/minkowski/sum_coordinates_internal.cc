@@ -154,4 +154,9 @@ void SumGeometry::Sharpen(int point) {
   x.error = kUnit * MaxAbs(x.rounded) + kUnderflow;
 }
 
+const SumPoint& SumGeometry::Sharp(int point) {
+  if (!(points_[point].error <= 0x1p-38)) Sharpen(point);
+  return points_[point];
+}
+
 }  // namespace touchstone::internal

@@ -145,6 +145,8 @@ class SumGeometry {
 
   // Makes a wide or infinite rounding error narrow, by way of the exact point.
   void Sharpen(int point);
+  // The point, sharpened where its error is above 2^-38, as few are: for what is told of it.
+  const SumPoint& Sharp(int point);
   // Times the factor of the pair's exact pose, not scaled.
   const ExactPoint& Exact(int point);
   const Dyadic& factor() { return exact_pair().pose().factor(); }
