@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <climits>
-#include <cmath>
 
 namespace touchstone::exact {
 namespace {
@@ -22,17 +21,6 @@ void SubtractDot(const IntegerVector& a, const IntegerVector& b, Integer& sum) {
 }
 
 double MaxAbs(const Eigen::Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
-
-// a / b * 2^exponent to within 2^-51 of itself; zero where that is below 2^-1000.
-double Quotient(const Integer& a, const Integer& b, long exponent) {
-  if (sgn(a) == 0) return 0.0;
-  long exponent_a = 0, exponent_b = 0;
-  const double mantissa_a = mpz_get_d_2exp(&exponent_a, a.get_mpz_t());
-  const double mantissa_b = mpz_get_d_2exp(&exponent_b, b.get_mpz_t());
-  const long e = exponent_a - exponent_b + exponent;
-  return e < -1000 ? 0.0
-                   : std::ldexp(mantissa_a / mantissa_b, static_cast<int>(std::min(e, 1023L)));
-}
 
 }  // namespace
 

@@ -117,6 +117,19 @@ void ExactBodyData::BuildEdgeVectors() const {
 // Strictly behind the face's plane: in doubles where the bound allows. The determinant of three
 // differences of coordinates up to X has six products below 8 X^3, each with at most 8 roundings,
 // all sums included: 384u X^3 < 2^-44 X^3.
+bool ExactBodyData::Has(const Feature& feature) const {
+  const auto is_below = [&](int count) { return feature.index >= 0 && feature.index < count; };
+  switch (feature.kind) {
+    case FeatureKind::kVertex:
+      return is_below(vertex_count);
+    case FeatureKind::kEdge:
+      return is_below(static_cast<int>(topology().edges.size()));
+    case FeatureKind::kFace:
+      return is_below(face_count);
+  }
+  return false;
+}
+
 bool ExactBodyData::IsBehind(int f, int i) const {
   const std::span<const int> loop = face(f);
   if (max_coordinate > 1e-80 && max_coordinate < 1e80) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "touchstone/core/base/verdict.h"
 #include "touchstone/core/convex/convex_polyhedron.h"
 #include "touchstone/exact/integer.h"
 
@@ -51,6 +52,9 @@ struct ExactBodyData {
   std::array<Eigen::Vector3d, 2> interior_double;
 
   std::span<const int> face(int f) const { return body.face(f); }
+  // Whether there is such an element.
+  bool HasVertex(int v) const { return v >= 0 && v < vertex_count; }
+  bool Has(const Feature& feature) const;
   const Topology& topology() const;
   const FaceNormals& normals() const;
   const EdgeVectors& edge_vectors() const;

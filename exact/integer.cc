@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "touchstone/exact/integer.h"
 
+#include <algorithm>
 #include <bit>
 #include <climits>
 #include <cmath>
@@ -124,6 +125,16 @@ Eigen::Vector3d ToDirection(const IntegerVector& v, long* exponent) {
     result[i] = std::ldexp(mantissa[i], static_cast<int>(exponents[i] - largest));
   }
   return result;
+}
+
+double Quotient(const Integer& a, const Integer& b, long exponent) {
+  if (sgn(a) == 0) return 0.0;
+  long exponent_a = 0, exponent_b = 0;
+  const double mantissa_a = mpz_get_d_2exp(&exponent_a, a.get_mpz_t());
+  const double mantissa_b = mpz_get_d_2exp(&exponent_b, b.get_mpz_t());
+  const long e = exponent_a - exponent_b + exponent;
+  return e < -1000 ? 0.0
+                   : std::ldexp(mantissa_a / mantissa_b, static_cast<int>(std::min(e, 1023L)));
 }
 
 int Compare(const Ratio& a, const Ratio& b) {

@@ -51,6 +51,9 @@ IntegerMatrix Transposed(const IntegerMatrix& m);
 // component is off by less than 2^-52 of itself, or of 2^-1000 where that is more.
 Eigen::Vector3d ToDirection(const IntegerVector& v, long* exponent = nullptr);
 
+// a / b * 2^exponent to within 2^-51 of itself; zero where that is below 2^-1000.
+double Quotient(const Integer& a, const Integer& b, long exponent);
+
 // A fraction with a positive denominator, not reduced.
 struct Ratio {
   Integer numerator;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <climits>
-#include <cmath>
 #include <numeric>
 
 namespace touchstone::exact {
@@ -27,17 +26,6 @@ int ExponentOf(const TriangleMesh& mesh) {
 
 void ShiftLeft(IntegerVector& v, int bits) {
   for (Integer& x : v) mpz_mul_2exp(x.get_mpz_t(), x.get_mpz_t(), static_cast<mp_bitcnt_t>(bits));
-}
-
-// a / b * 2^exponent to within 2^-51 of itself; zero where that is below 2^-1000.
-double Quotient(const Integer& a, const Integer& b, long exponent) {
-  if (sgn(a) == 0) return 0.0;
-  long exponent_a = 0, exponent_b = 0;
-  const double mantissa_a = mpz_get_d_2exp(&exponent_a, a.get_mpz_t());
-  const double mantissa_b = mpz_get_d_2exp(&exponent_b, b.get_mpz_t());
-  const long e = exponent_a - exponent_b + exponent;
-  return e < -1000 ? 0.0
-                   : std::ldexp(mantissa_a / mantissa_b, static_cast<int>(std::min(e, 1023L)));
 }
 
 bool BoxesMeet(const FaceTree::Node& a, const FaceTree::Node& b, const Vector3d& offset,

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "touchstone/core/base/half_edges.h"
 
 namespace touchstone::internal {
 namespace {
@@ -17,8 +18,11 @@ class TopologyBuilder {
       : data_(*data), half_edge_count_(static_cast<int>(data->face_vertices.size())) {}
 
   Status Build() {
-    ListHalfEdges();
-    if (Status status = PairHalfEdges(); !status.ok()) return status;
+    ListFaces();
+    std::vector<HalfEdge> half_edges(half_edge_count_);
+    for (int h = 0; h < half_edge_count_; ++h) half_edges[h] = {Tail(h), Head(h), face_of_[h]};
+    const Status paired = PairHalfEdges(half_edges, data_.vertex_count(), &twin_);
+    if (!paired.ok()) return paired;
     NumberEdges();
     if (Status status = WalkRoundVertices(); !status.ok()) return status;
     return CheckOneSphere();
@@ -36,59 +40,12 @@ class TopologyBuilder {
     return h > data_.face_begin[f] ? h - 1 : data_.face_begin[f + 1] - 1;
   }
 
-  void ListHalfEdges() {
+  void ListFaces() {
     face_of_.resize(half_edge_count_);
     for (int f = 0; f < data_.face_count(); ++f) {
       std::fill(face_of_.begin() + data_.face_begin[f], face_of_.begin() + data_.face_begin[f + 1],
                 f);
     }
-  }
-
-  Status PairHalfEdges() {
-    // Half-edges in order of their smaller vertex, by counting, then of their larger one.
-    std::vector<int> begin(data_.vertex_count() + 1, 0);
-    for (int h = 0; h < half_edge_count_; ++h) ++begin[std::min(Tail(h), Head(h)) + 1];
-    for (int v = 0; v < data_.vertex_count(); ++v) begin[v + 1] += begin[v];
-    std::vector<std::pair<int, int>> sorted(half_edge_count_);  // larger vertex, half-edge
-    std::vector<int> place(begin.begin(), begin.end() - 1);
-    for (int h = 0; h < half_edge_count_; ++h) {
-      const auto [small, large] = std::minmax({Tail(h), Head(h)});
-      sorted[place[small]++] = {large, h};
-    }
-    twin_.assign(half_edge_count_, -1);
-    for (int v = 0; v < data_.vertex_count(); ++v) {
-      std::sort(sorted.begin() + begin[v], sorted.begin() + begin[v + 1]);
-      for (int i = begin[v]; i < begin[v + 1];) {
-        int end = i + 1;
-        while (end < begin[v + 1] && sorted[end].first == sorted[i].first) ++end;
-        if (Status status = Pair(sorted[i].second, sorted[end - 1].second, end - i); !status.ok()) {
-          return status;
-        }
-        i = end;
-      }
-    }
-    return {};
-  }
-
-  // Joins the first and last of `count` half-edges on one pair of vertices.
-  Status Pair(int h, int k, int count) {
-    if (count == 2 && Tail(h) != Tail(k)) {
-      twin_[h] = k;
-      twin_[k] = h;
-      return {};
-    }
-    const std::string name = "edge " + std::to_string(Tail(h)) + "-" + std::to_string(Head(h));
-    if (count == 1) {
-      return {StatusCode::kOpen, ElementKind::kEdge, Tail(h), Head(h),
-              name + " has face " + std::to_string(face_of_[h]) + " only"};
-    }
-    if (count > 2) {
-      return {StatusCode::kNonManifold, ElementKind::kEdge, Tail(h), Head(h),
-              name + " has " + std::to_string(count) + " faces"};
-    }
-    return {StatusCode::kInconsistentOrientation, ElementKind::kEdge, Tail(h), Head(h),
-            "faces " + std::to_string(face_of_[h]) + " and " + std::to_string(face_of_[k]) +
-                " run " + name + " in the same sense"};
   }
 
   void NumberEdges() {

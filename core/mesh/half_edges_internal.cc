@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/core/mesh/half_edges_internal.h"
 
-#include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "touchstone/core/base/half_edges.h"
 
 namespace touchstone::internal {
 namespace {
@@ -14,7 +14,12 @@ class HalfEdgeBuilder {
   explicit HalfEdgeBuilder(TriangleMeshData* data) : data_(*data) {}
 
   Status Build() {
-    if (Status status = PairHalfEdges(); !status.ok()) return status;
+    std::vector<HalfEdge> half_edges(data_.half_edge_count());
+    for (int h = 0; h < data_.half_edge_count(); ++h) {
+      half_edges[h] = {data_.tail(h), data_.head(h), h / 3};
+    }
+    const Status paired = PairHalfEdges(half_edges, data_.vertex_count(), &data_.twins);
+    if (!paired.ok()) return paired;
     NumberEdges();
     if (Status status = WalkRoundVertices(); !status.ok()) return status;
     FindComponents();
@@ -22,55 +27,6 @@ class HalfEdgeBuilder {
   }
 
  private:
-  Status PairHalfEdges() {
-    // Half-edges in order of their smaller vertex, by counting, then of their larger one.
-    const int half_edge_count = data_.half_edge_count();
-    std::vector<int> begin(data_.vertex_count() + 1, 0);
-    for (int h = 0; h < half_edge_count; ++h) ++begin[std::min(data_.tail(h), data_.head(h)) + 1];
-    for (int v = 0; v < data_.vertex_count(); ++v) begin[v + 1] += begin[v];
-    std::vector<std::pair<int, int>> sorted(half_edge_count);  // larger vertex, half-edge
-    std::vector<int> place(begin.begin(), begin.end() - 1);
-    for (int h = 0; h < half_edge_count; ++h) {
-      const auto [small, large] = std::minmax({data_.tail(h), data_.head(h)});
-      sorted[place[small]++] = {large, h};
-    }
-    data_.twins.assign(half_edge_count, -1);
-    for (int v = 0; v < data_.vertex_count(); ++v) {
-      std::sort(sorted.begin() + begin[v], sorted.begin() + begin[v + 1]);
-      for (int i = begin[v]; i < begin[v + 1];) {
-        int end = i + 1;
-        while (end < begin[v + 1] && sorted[end].first == sorted[i].first) ++end;
-        if (Status status = Pair(sorted[i].second, sorted[end - 1].second, end - i); !status.ok()) {
-          return status;
-        }
-        i = end;
-      }
-    }
-    return {};
-  }
-
-  // Joins the first and last of `count` half-edges on one pair of vertices.
-  Status Pair(int h, int k, int count) {
-    const int tail = data_.tail(h), head = data_.head(h);
-    if (count == 2 && tail != data_.tail(k)) {
-      data_.twins[h] = k;
-      data_.twins[k] = h;
-      return {};
-    }
-    const std::string name = "edge " + std::to_string(tail) + "-" + std::to_string(head);
-    if (count == 1) {
-      return {StatusCode::kOpen, ElementKind::kEdge, tail, head,
-              name + " has face " + std::to_string(h / 3) + " only"};
-    }
-    if (count > 2) {
-      return {StatusCode::kNonManifold, ElementKind::kEdge, tail, head,
-              name + " has " + std::to_string(count) + " faces"};
-    }
-    return {StatusCode::kInconsistentOrientation, ElementKind::kEdge, tail, head,
-            "faces " + std::to_string(h / 3) + " and " + std::to_string(k / 3) + " run " + name +
-                " in the same sense"};
-  }
-
   void NumberEdges() {
     data_.edge_of_half_edge.resize(data_.half_edge_count());
     data_.half_edge_of_edge.reserve(data_.half_edge_count() / 2);

@@ -13,21 +13,9 @@ bool InRange(int i, int count) { return i >= 0 && i < count; }
 bool PairsInRange(const std::array<VertexPair, 3>& pairs, const ExactBodyData& p,
                   const ExactBodyData& q) {
   for (const VertexPair& pair : pairs) {
-    if (!InRange(pair.p, p.vertex_count) || !InRange(pair.q, q.vertex_count)) return false;
+    if (!p.HasVertex(pair.p) || !q.HasVertex(pair.q)) return false;
   }
   return true;
-}
-
-bool FeatureInRange(const Feature& feature, const ExactBodyData& body) {
-  switch (feature.kind) {
-    case FeatureKind::kVertex:
-      return InRange(feature.index, body.vertex_count);
-    case FeatureKind::kEdge:
-      return InRange(feature.index, static_cast<int>(body.topology().edges.size()));
-    case FeatureKind::kFace:
-      return InRange(feature.index, body.face_count);
-  }
-  return false;
 }
 
 // sign(det [v a b]) for the sides a, b of a triangle. Doubles first: v, a and b are scaled to at
@@ -122,15 +110,15 @@ bool CheckIndices(const JudgeContext& context, const ExactBody& p, const ExactBo
       return false;
     }
   }
-  if (result.face.has_value() && (!PairsInRange(result.face->triangle, p.data(), q.data()) ||
-                                  !FeatureInRange(result.face->feature_p, p.data()) ||
-                                  !FeatureInRange(result.face->feature_q, q.data()))) {
+  if (result.face.has_value() &&
+      (!PairsInRange(result.face->triangle, p.data(), q.data()) ||
+       !p.data().Has(result.face->feature_p) || !q.data().Has(result.face->feature_q))) {
     context.Add(FindingKind::kNotAFace, "names an element that does not exist");
     return false;
   }
   for (const PhaseReport& report : result.phases) {
-    if (report.face_class.has_value() && (!FeatureInRange(report.feature_p, p.data()) ||
-                                          !FeatureInRange(report.feature_q, q.data()))) {
+    if (report.face_class.has_value() &&
+        (!p.data().Has(report.feature_p) || !q.data().Has(report.feature_q))) {
       context.Add(FindingKind::kPhaseNotMaximal, "a phase names an element that does not exist");
       return false;
     }

@@ -123,20 +123,11 @@ void ProximityContext::CheckNear(const std::string& name, double stated, const R
 }
 
 bool ProximityContext::IndicesExist(const VertexPair& vertices) const {
-  return InRange(vertices.p, pair.p().vertex_count) && InRange(vertices.q, pair.q().vertex_count);
+  return pair.p().HasVertex(vertices.p) && pair.q().HasVertex(vertices.q);
 }
 
 bool ProximityContext::FeatureExists(const Feature& feature, bool of_p) const {
-  const ExactBodyData& body = of_p ? pair.p() : pair.q();
-  switch (feature.kind) {
-    case FeatureKind::kVertex:
-      return InRange(feature.index, body.vertex_count);
-    case FeatureKind::kEdge:
-      return InRange(feature.index, static_cast<int>(body.topology().edges.size()));
-    case FeatureKind::kFace:
-      return InRange(feature.index, body.face_count);
-  }
-  return false;
+  return (of_p ? pair.p() : pair.q()).Has(feature);
 }
 
 void ProximityContext::CheckFeature(const std::string& name, const Feature& feature,
