@@ -11,18 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The sides that a facet's corners lie on; false if all lie strictly on one side.
-bool FindSides(SumGeometry* geometry, const ArrangedFacet& facet, int plane, CornerSides* sides) {
-  int least = 1, greatest = -1;
-  for (int k = 0; k < facet.count; ++k) {
-    const int side = geometry->Side(facet.corners[k], plane);
-    (*sides)[k] = static_cast<signed char>(side);
-    least = std::min(least, side);
-    greatest = std::max(greatest, side);
-  }
-  return least <= 0 && greatest >= 0;
-}
-
 class PairFinder {
  public:
   PairFinder(SumGeometry* geometry, std::span<const ArrangedFacet> facets)
@@ -73,12 +61,27 @@ class PairFinder {
     if (share_an_edge && (AreOfOneVertex(x.name, y.name) || LieAcrossAnEdge(geometry_, x, y))) {
       return false;
     }
-    if (!FindSides(&geometry_, y, x.plane, &pair->of_g)) return false;
+    if (!FindSides(pair->f, pair->g, &pair->of_g)) return false;
     if (std::all_of(pair->of_g.begin(), pair->of_g.end(), [](int side) { return side == 0; })) {
       geometry_.Unite(x.plane, y.plane);
       return false;
     }
-    return !share_an_edge && FindSides(&geometry_, x, y.plane, &pair->of_f);
+    return !share_an_edge && FindSides(pair->g, pair->f, &pair->of_f);
+  }
+
+  // The sides of f's plane that g's corners lie on; false if all lie strictly on one side.
+  bool FindSides(int f, int g, CornerSides* sides) {
+    const ArrangedFacet& own = facets_[g];
+    *sides = triage_.SidesOf(f, g);
+    int least = 1, greatest = -1;
+    for (int k = 0; k < own.count; ++k) {
+      int side = (*sides)[k];
+      if (side == 0) side = geometry_.Side(own.corners[k], facets_[f].plane);
+      (*sides)[k] = static_cast<signed char>(side);
+      least = std::min(least, side);
+      greatest = std::max(greatest, side);
+    }
+    return least <= 0 && greatest >= 0;
   }
 
   // Whether facets that share one corner certainly share nothing else: neither cuts the other then,

@@ -15,9 +15,6 @@
 
 namespace touchstone::internal {
 
-// The sides of another plane that a facet's corners lie on.
-using CornerSides = std::array<signed char, 4>;
-
 // Facets f < g that each have corners on both sides of the other's plane, or in it.
 struct FacetPair {
   int f, g;

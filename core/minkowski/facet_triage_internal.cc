@@ -82,6 +82,18 @@ bool FacetTriage::IsClear(int f, int g) const {
   return low > plane.bound || high < -plane.bound;
 }
 
+CornerSides FacetTriage::SidesOf(int f, int g) const {
+  const Entry& plane = entries_[f];
+  const auto& x = entries_[g].corners;
+  CornerSides sides;
+  for (int k = 0; k < 4; ++k) {
+    const double height = plane.normal[0] * x[0][k] + plane.normal[1] * x[1][k] +
+                          plane.normal[2] * x[2][k] - plane.offset;
+    sides[k] = static_cast<signed char>((height > plane.bound) - (height < -plane.bound));
+  }
+  return sides;
+}
+
 bool FacetTriage::IsClearBut(int f, int g, int corner, std::span<const int> corners_of_g) const {
   const Entry& plane = entries_[f];
   const auto& x = entries_[g].corners;

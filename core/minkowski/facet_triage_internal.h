@@ -21,6 +21,9 @@ struct ArrangedFacet {
   int plane;
 };
 
+// The sides of another plane that a facet's corners lie on.
+using CornerSides = std::array<signed char, 4>;
+
 // Facets' planes and corners side by side, for a first look at many pairs.
 class FacetTriage {
  public:
@@ -29,7 +32,9 @@ class FacetTriage {
   // Whether all corners of facet g lie strictly on one side of f's plane; false if doubles cannot
   // tell.
   bool IsClear(int f, int g) const;
-  // The same of all corners but one, which lies in f's plane by its name.
+  // The sides of f's plane that g's corners lie on; 0 where doubles cannot tell.
+  CornerSides SidesOf(int f, int g) const;
+  // As IsClear, of all corners but one, which lies in f's plane by its name.
   bool IsClearBut(int f, int g, int corner, std::span<const int> corners_of_g) const;
 
  private:

@@ -9,6 +9,7 @@
 
 #include "touchstone/core/cpd/mesh_penetration_depth.h"
 #include "touchstone/core/mesh/membership.h"
+#include "touchstone/tests/testing/poses.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tools/shapes/paper_scenes.h"
 #include "touchstone/tools/shapes/shapes.h"
@@ -18,10 +19,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-RelativePose PoseOf(const Matrix3d& rotation, const Vector3d& translation) {
-  return *RelativePose::Make(rotation, translation);
-}
+using touchstone::testing::PoseOf;
 
 Matrix3d Turn(double angle, const Vector3d& axis) {
   return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();

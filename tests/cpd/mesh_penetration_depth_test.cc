@@ -14,6 +14,7 @@
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/minkowski/boundary.h"
 #include "touchstone/core/proximity/penetration_depth.h"
+#include "touchstone/tests/testing/poses.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tests/testing/shapes.h"
 #include "touchstone/tools/shapes/paper_scenes.h"
@@ -24,10 +25,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-RelativePose PoseOf(const Matrix3d& rotation, const Vector3d& translation = Vector3d::Zero()) {
-  return *RelativePose::Make(rotation, translation);
-}
+using touchstone::testing::PoseOf;
 
 struct Bodies {
   TriangleMesh mesh_a, mesh_b;

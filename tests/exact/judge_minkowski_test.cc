@@ -16,6 +16,7 @@
 
 #include "touchstone/core/minkowski/boundary.h"
 #include "touchstone/exact/sum_cells.h"
+#include "touchstone/tests/testing/poses.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tools/shapes/shapes.h"
 
@@ -26,6 +27,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using ::testing::Contains;
 using ::testing::IsEmpty;
+using touchstone::testing::PoseOf;
 
 std::vector<std::string> Texts(const std::vector<SumFinding>& findings) {
   std::vector<std::string> texts;
@@ -55,10 +57,6 @@ struct Judged {
   const RelativePose pose;
   SumBoundary boundary;
 };
-
-RelativePose PoseOf(const Matrix3d& rotation) {
-  return *RelativePose::Make(rotation, Vector3d::Zero());
-}
 
 constexpr SumJudgeOptions kSamples{.samples = 4, .lines = 3};
 constexpr SumJudgeOptions kAllCells{.samples = 4, .lines = 2, .enumerate = true};

@@ -9,6 +9,7 @@
 
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/mesh/triangle_contact_internal.h"
+#include "touchstone/tests/testing/poses.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tools/shapes/shapes.h"
 
@@ -17,10 +18,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-RelativePose PoseOf(const Matrix3d& rotation, const Vector3d& translation) {
-  return *RelativePose::Make(rotation, translation);
-}
+using touchstone::testing::PoseOf;
 
 // Where nothing but the cache's planes answered.
 bool IsByPrism(const MembershipResult& result) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "touchstone/tests/testing/poses.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tools/shapes/shapes.h"
 
@@ -15,10 +16,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-RelativePose PoseOf(const Matrix3d& rotation, const Vector3d& translation = Vector3d::Zero()) {
-  return *RelativePose::Make(rotation, translation);
-}
+using touchstone::testing::PoseOf;
 
 MeshPair PairOf(const Shape& a, const Shape& b, const RelativePose& pose = {}) {
   return MeshPair(MustBuild(a), MustBuild(b), pose);

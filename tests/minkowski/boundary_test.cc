@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "touchstone/core/mesh/membership.h"
+#include "touchstone/tests/testing/poses.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tools/shapes/shapes.h"
 
@@ -22,10 +23,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-RelativePose PoseOf(const Matrix3d& rotation, const Vector3d& translation = Vector3d::Zero()) {
-  return *RelativePose::Make(rotation, translation);
-}
+using touchstone::testing::PoseOf;
 
 struct Sum {
   MeshPair pair;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "touchstone/tests/testing/poses.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tools/shapes/shapes.h"
 
@@ -16,10 +17,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-RelativePose PoseOf(const Matrix3d& rotation) {
-  return *RelativePose::Make(rotation, Vector3d::Zero());
-}
+using touchstone::testing::PoseOf;
 
 // Poses in which faces and edges of the two are parallel, nearly parallel, or in general position.
 std::vector<Matrix3d> Rotations() {

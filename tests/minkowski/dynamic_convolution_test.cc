@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "touchstone/tests/testing/poses.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tools/shapes/shapes.h"
 
@@ -22,10 +23,7 @@ namespace {
 using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-RelativePose PoseOf(const Matrix3d& rotation) {
-  return *RelativePose::Make(rotation, Vector3d::Zero());
-}
+using touchstone::testing::PoseOf;
 
 Matrix3d Turn(double angle, const Vector3d& axis) {
   return AngleAxisd(angle, axis.normalized()).toRotationMatrix();

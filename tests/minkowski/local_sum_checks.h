@@ -13,6 +13,7 @@
 
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/minkowski/local_sum.h"
+#include "touchstone/tests/testing/poses.h"
 #include "touchstone/tools/shapes/shapes.h"
 
 namespace touchstone::testing {
@@ -20,11 +21,6 @@ namespace touchstone::testing {
 inline constexpr LocalBuilder kAllBuilders[] = {LocalBuilder::kFull, LocalBuilder::kBruteForce,
                                                 LocalBuilder::kSphereHierarchy,
                                                 LocalBuilder::kGapFilling};
-
-inline RelativePose PoseOf(const Eigen::Matrix3d& rotation,
-                           const Eigen::Vector3d& translation = Eigen::Vector3d::Zero()) {
-  return *RelativePose::Make(rotation, translation);
-}
 
 // A triangle, sheet or segment of the output, to be compared.
 struct Piece {
