@@ -8,11 +8,16 @@
 #include <numeric>
 
 #include "touchstone/core/base/vector_clones.h"
+#include "touchstone/core/mesh/face_lanes.h"
+#include "touchstone/core/mesh/lanes_internal.h"
 
 namespace touchstone {
 namespace {
 
 using Eigen::Vector3d;
+using internal::Flags;
+using internal::Lanes;
+using internal::Reals;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -57,6 +62,36 @@ void PartIntoRuns(std::span<const Box3> boxes, std::span<int> members, std::ptrd
   PartIntoRuns(boxes, members.subspan(at), size, runs);
 }
 
+void SetLane(const Box3& box, int lane, BoxNode* node) {
+  for (int axis = 0; axis < 3; ++axis) {
+    node->low[axis][lane] = box.low[axis];
+    node->high[axis][lane] = box.high[axis];
+  }
+}
+
+void FitWhole(BoxNode* node) {
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = node->low[axis][0], high = node->high[axis][0];
+    for (int lane = 1; lane < node->lane_count; ++lane) {
+      low = std::min(low, node->low[axis][lane]);
+      high = std::max(high, node->high[axis][lane]);
+    }
+    node->whole.low[axis] = low;
+    node->whole.high[axis] = high;
+  }
+}
+
+void GatherCorners(std::span<const Vector3d> points, std::span<const Triangle> faces,
+                   const BoxNode& leaf, FaceLanes* lanes) {
+  for (int lane = 0; lane < kTreeWidth; ++lane) {
+    const Triangle& face = faces[~leaf.children[lane < leaf.lane_count ? lane : 0]];
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d& point = points[face[k]];
+      for (int i = 0; i < 3; ++i) lanes->corners[k][i][lane] = point[i];
+    }
+  }
+}
+
 // A lane alone, as a node, to go against the nodes of a deeper tree.
 BoxNode LaneAlone(const BoxNode& node, int lane) {
   BoxNode alone;
@@ -73,43 +108,6 @@ BoxNode LaneAlone(const BoxNode& node, int lane) {
   return alone;
 }
 
-}  // namespace
-
-// Lanes of B run in vectors, those of A one after the other. In the compiler's own vectors, for
-// left to itself it gathers the masks lane by lane; and what misses is told by the sign bits of
-// differences, for with comparisons of such vectors it does so in clones.
-using Reals = double __attribute__((vector_size(8 * kTreeWidth), may_alias));
-using Flags = std::uint64_t __attribute__((vector_size(8 * kTreeWidth)));
-using Bytes = std::uint8_t __attribute__((vector_size(kTreeWidth)));
-
-namespace {
-
-struct Lanes {
-  Reals low_x, low_y, low_z, high_x, high_y, high_z;
-};
-
-// The node's boxes, moved and grown. (Axis by axis: of loops GCC 12 keeps the vectors in memory.)
-TOUCHSTONE_INLINE void Move(const BoxNode& node, const Vector3d& offset, double margin,
-                            Lanes* moved) {
-  const auto* low = reinterpret_cast<const Reals*>(node.low);
-  const auto* high = reinterpret_cast<const Reals*>(node.high);
-  moved->low_x = low[0] + offset[0] - margin;
-  moved->low_y = low[1] + offset[1] - margin;
-  moved->low_z = low[2] + offset[2] - margin;
-  moved->high_x = high[0] + offset[0] + margin;
-  moved->high_y = high[1] + offset[1] + margin;
-  moved->high_z = high[2] + offset[2] + margin;
-}
-
-// Bit 63 of each lane: whether it misses the box. (A vector is not returned: how it would be
-// depends on the clone.)
-TOUCHSTONE_INLINE void FindMisses(const Lanes& lanes, const double low[3], const double high[3],
-                                  Flags* misses) {
-  *misses = (Flags)(lanes.high_x - low[0]) | (Flags)(high[0] - lanes.low_x) |
-            (Flags)(lanes.high_y - low[1]) | (Flags)(high[1] - lanes.low_y) |
-            (Flags)(lanes.high_z - low[2]) | (Flags)(high[2] - lanes.low_z);
-}
-
 // Bit j: whether lane j of the node, where it is, meets the box.
 TOUCHSTONE_INLINE std::uint64_t MeetingMask(const double low[3], const double high[3],
                                             const BoxNode& node) {
@@ -117,12 +115,8 @@ TOUCHSTONE_INLINE std::uint64_t MeetingMask(const double low[3], const double hi
   const auto* highs = reinterpret_cast<const Reals*>(node.high);
   const Lanes lanes = {lows[0], lows[1], lows[2], highs[0], highs[1], highs[2]};
   Flags misses;
-  FindMisses(lanes, low, high, &misses);
-  const Flags bits = {1, 2, 4, 8, 16, 32, 64, 128};
-  const Flags meeting = ((misses >> 63) - 1) & bits;
-  std::uint64_t mask = 0;
-  for (int j = 0; j < kTreeWidth; ++j) mask |= meeting[j];
-  return mask & ((std::uint64_t{1} << node.lane_count) - 1);
+  internal::FindMisses(lanes, low, high, &misses);
+  return internal::ClearLanes(misses) & ((std::uint64_t{1} << node.lane_count) - 1);
 }
 
 }  // namespace
@@ -138,17 +132,17 @@ void MeetingLanes(const BoxNode& a, const BoxNode& b, const Vector3d& offset, do
                                 whole.high[1] + offset[1] + margin,
                                 whole.high[2] + offset[2] + margin};
   Lanes lanes;
-  Move(b, offset, margin, &lanes);
+  internal::Move(b, offset, margin, &lanes);
   Flags meeting = {};
   for (std::uint64_t of_a = MeetingMask(whole_low, whole_high, a); of_a != 0; of_a &= of_a - 1) {
     const int i = std::countr_zero(of_a);
     const double low[3] = {a.low[0][i], a.low[1][i], a.low[2][i]};
     const double high[3] = {a.high[0][i], a.high[1][i], a.high[2][i]};
     Flags misses;
-    FindMisses(lanes, low, high, &misses);
+    internal::FindMisses(lanes, low, high, &misses);
     meeting |= ((misses >> 63) - 1) & (std::uint64_t{1} << i);
   }
-  const Bytes bytes = __builtin_convertvector(meeting, Bytes);
+  const internal::Bytes bytes = __builtin_convertvector(meeting, internal::Bytes);
   std::memcpy(masks, &bytes, sizeof bytes);
   for (int j = b.lane_count; j < kTreeWidth; ++j) masks[j] = 0;
 }
@@ -164,6 +158,38 @@ std::uint8_t MeetingLanes(const Box3& box, const BoxNode& node, const Vector3d& 
   return static_cast<std::uint8_t>(MeetingMask(low, high, node));
 }
 
+namespace {
+
+// The boxes of the leaf's lanes and of all. (From and to arrays of its own: what may overlap is not
+// vectorised.)
+TOUCHSTONE_VECTOR_CLONES
+void FitBoxesOf(const FaceLanes& lanes, BoxNode* leaf) {
+  for (int axis = 0; axis < 3; ++axis) {
+    double a[kTreeWidth], b[kTreeWidth], c[kTreeWidth], low[kTreeWidth], high[kTreeWidth];
+    std::memcpy(a, lanes.corners[0][axis], sizeof a);
+    std::memcpy(b, lanes.corners[1][axis], sizeof b);
+    std::memcpy(c, lanes.corners[2][axis], sizeof c);
+    for (int i = 0; i < kTreeWidth; ++i) {
+      const double least = a[i] < b[i] ? a[i] : b[i], most = a[i] < b[i] ? b[i] : a[i];
+      low[i] = least < c[i] ? least : c[i];
+      high[i] = most < c[i] ? c[i] : most;
+    }
+    std::memcpy(leaf->low[axis], low, sizeof low);
+    std::memcpy(leaf->high[axis], high, sizeof high);
+    // Unused lanes repeat the first.
+    double lowest, highest;
+    internal::FindExtent(low, high, &lowest, &highest);
+    leaf->whole.low[axis] = lowest;
+    leaf->whole.high[axis] = highest;
+    for (int lane = leaf->lane_count; lane < kTreeWidth; ++lane) {
+      leaf->low[axis][lane] = kInfinity;
+      leaf->high[axis][lane] = -kInfinity;
+    }
+  }
+}
+
+}  // namespace
+
 BoxTree::BoxTree(std::span<const Vector3d> points, std::span<const Triangle> faces) {
   std::vector<Box3> boxes;
   boxes.reserve(faces.size());
@@ -176,7 +202,12 @@ BoxTree::BoxTree(std::span<const Box3> boxes) {
   std::vector<int> members(boxes.size());
   std::iota(members.begin(), members.end(), 0);
   AddNode(boxes, members);
-  FitBoxes([&](int item) { return boxes[item]; });
+  FitBoxes([&](BoxNode* leaf) {
+    for (int lane = 0; lane < leaf->lane_count; ++lane) {
+      SetLane(boxes[~leaf->children[lane]], lane, leaf);
+    }
+    FitWhole(leaf);
+  });
 }
 
 int BoxTree::AddNode(std::span<const Box3> boxes, std::span<int> members) {
@@ -195,37 +226,33 @@ int BoxTree::AddNode(std::span<const Box3> boxes, std::span<int> members) {
     }
     nodes_[index].children[lane] = 0;
   }
+  if (size == 1) nodes_[index].leaf = leaf_count_++;
   for (std::size_t lane = 0; lane < runs.size(); ++lane) {
-    const int child = runs[lane].size() == 1 ? ~runs[lane][0] : AddNode(boxes, runs[lane]);
+    const int child = size == 1 ? ~runs[lane][0] : AddNode(boxes, runs[lane]);
     nodes_[index].children[lane] = child;
   }
   return index;
 }
 
-void BoxTree::Fit(std::span<const Vector3d> points, std::span<const Triangle> faces) {
-  FitBoxes([&](int item) { return BoxOfFace(points, faces[item]); });
+void BoxTree::Fit(std::span<const Vector3d> points, std::span<const Triangle> faces,
+                  std::span<FaceLanes> lanes) {
+  for (const BoxNode& node : nodes_) {
+    if (node.leaf >= 0) GatherCorners(points, faces, node, &lanes[node.leaf]);
+  }
+  FitBoxes([&](BoxNode* leaf) { FitBoxesOf(lanes[leaf->leaf], leaf); });
 }
 
-template <class BoxOf>
-void BoxTree::FitBoxes(const BoxOf& box_of) {
+template <class FitLeaf>
+void BoxTree::FitBoxes(const FitLeaf& fit_leaf) {
   for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
+    if (node->leaf >= 0) {
+      fit_leaf(&*node);
+      continue;
+    }
     for (int lane = 0; lane < node->lane_count; ++lane) {
-      const int child = node->children[lane];
-      const Box3 box = child < 0 ? box_of(~child) : nodes_[child].whole;
-      for (int axis = 0; axis < 3; ++axis) {
-        node->low[axis][lane] = box.low[axis];
-        node->high[axis][lane] = box.high[axis];
-      }
+      SetLane(nodes_[node->children[lane]].whole, lane, &*node);
     }
-    for (int axis = 0; axis < 3; ++axis) {
-      double low = node->low[axis][0], high = node->high[axis][0];
-      for (int lane = 1; lane < kTreeWidth; ++lane) {
-        low = std::min(low, node->low[axis][lane]);
-        high = std::max(high, node->high[axis][lane]);
-      }
-      node->whole.low[axis] = low;
-      node->whole.high[axis] = high;
-    }
+    FitWhole(&*node);
   }
   all_ = nodes_[0].whole;
 }

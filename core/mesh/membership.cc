@@ -28,13 +28,13 @@ std::pair<int, int> FacesOf(const Crossing& crossing) {
 // Nodes compared from the first on where the children that share most are followed first: what
 // crosses is found early by that, if anything does.
 constexpr int kOrdered = 16;
-// Pairs of lanes that meet from which on it pays to gather their triangles into lanes: of two
-// nodes, and of a face and a node.
-constexpr int kMany = 12, kManyOfOne = 3;
+// Pairs of faces of two leaves from which on it pays to part them together; the first of all are
+// compared alone, for where bodies overlap deeply one of them crosses.
+constexpr int kMany = 4, kAlone = 8;
 
-bool HasAtLeast(std::uint64_t bits, int count) {
-  for (int i = 1; i < count; ++i) bits &= bits - 1;
-  return bits != 0;
+bool AreMany(std::uint64_t pairs) {
+  for (int i = 1; i < kMany; ++i) pairs &= pairs - 1;
+  return pairs != 0;
 }
 
 class Query {
@@ -103,42 +103,93 @@ class Query {
     return cache_.prism.crossing() == crossing && cache_.prism.IsOf(pair_);
   }
 
-  // Compares the trees from the roots down. A child that is a face is paired with the nodes of
-  // the other tree until it meets faces.
+  // Compares the trees from the roots down. A leaf is paired with the nodes of the other tree until
+  // it meets leaves.
   bool SurfacesCross() {
     cache_.stack.clear();
     cache_.stack.emplace_back(0, 0);
     while (!cache_.stack.empty()) {
       const auto [a, b] = cache_.stack.back();
       cache_.stack.pop_back();
-      if (CompareNodes(a, b)) return true;
+      ++result_.box_tests;
+      const BoxNode &node_a = pair_.a().tree.node(a), &node_b = pair_.b().tree.node(b);
+      if (node_a.leaf >= 0 && node_b.leaf >= 0) {
+        if (CompareLeaves(node_a, node_b)) return true;
+      } else {
+        CompareNodes(a, node_a, b, node_b);
+      }
     }
     return false;
   }
 
-  bool CompareNodes(int a, int b) {
-    ++result_.box_tests;
-    if (a < 0) return CompareFaceOfA(~a, pair_.b().tree.node(b));
-    if (b < 0) return CompareFaceOfB(pair_.a().tree.node(a), ~b);
-    const BoxNode &node_a = pair_.a().tree.node(a), &node_b = pair_.b().tree.node(b);
-    const bool in_order = result_.box_tests <= kOrdered;
+  void CompareNodes(int a, const BoxNode& node_a, int b, const BoxNode& node_b) {
     std::uint8_t masks[kTreeWidth];
     MeetingLanes(node_a, node_b, offset_.value, offset_.error, masks);
     std::uint64_t hits;  // bit 8 j + i: lanes i of A and j of B
     std::memcpy(&hits, masks, sizeof hits);
-    if (!in_order && HasAtLeast(hits, kMany)) hits = NotParted(node_a, node_b, hits);
+    // Of a leaf all lanes are one.
+    if (node_a.leaf >= 0) {
+      for (int j = 0; j < node_b.lane_count; ++j) {
+        if (masks[j] != 0) cache_.stack.emplace_back(a, node_b.children[j]);
+      }
+      return;
+    }
+    if (node_b.leaf >= 0) {
+      for (std::uint64_t of_a = OfAny(hits); of_a != 0; of_a &= of_a - 1) {
+        cache_.stack.emplace_back(node_a.children[std::countr_zero(of_a)], b);
+      }
+      return;
+    }
+    const bool in_order = result_.box_tests <= kOrdered;
     double most = -1.0;
     std::size_t best = 0;
     for (; hits != 0; hits &= hits - 1) {
       const int bit = std::countr_zero(hits), i = bit % kTreeWidth, j = bit / kTreeWidth;
-      const int child_a = node_a.children[i], child_b = node_b.children[j];
-      if (CompareChildren(child_a, child_b)) return true;
-      if (!in_order || (child_a < 0 && child_b < 0)) continue;
+      cache_.stack.emplace_back(node_a.children[i], node_b.children[j]);
+      if (!in_order) continue;
       const double shared = SharedVolume(node_a, i, node_b, j);
       if (shared > most) most = shared, best = cache_.stack.size() - 1;
     }
     if (most >= 0.0) std::swap(cache_.stack[best], cache_.stack.back());
+  }
+
+  static std::uint64_t OfAny(std::uint64_t bytes) {
+    bytes |= bytes >> 32;
+    bytes |= bytes >> 16;
+    return (bytes | bytes >> 8) & 0xff;
+  }
+
+  bool CompareLeaves(const BoxNode& leaf_a, const BoxNode& leaf_b) {
+    const FaceLanes &lanes_a = pair_.a().leaves[leaf_a.leaf],
+                    &lanes_b = pair_.b().leaves[leaf_b.leaf];
+    std::uint64_t pairs = internal::MeetingFaces(pair_.a(), leaf_a, pair_.b(), leaf_b, offset_);
+    for (; pairs != 0; pairs &= pairs - 1) {
+      if (result_.triangle_tests >= kAlone) pairs = WithoutParted(lanes_a, lanes_b, pairs);
+      if (pairs == 0) break;
+      const int bit = std::countr_zero(pairs), i = bit % kTreeWidth, j = bit / kTreeWidth;
+      if (CompareFaces(~leaf_a.children[i], ~leaf_b.children[j])) return true;
+    }
     return false;
+  }
+
+  // Parts pairs of faces, as long as they are many, until the first that is left cannot be.
+  std::uint64_t WithoutParted(const FaceLanes& lanes_a, const FaceLanes& lanes_b,
+                              std::uint64_t pairs) {
+    for (int round = 0; round < internal::kPartingRounds && AreMany(pairs);) {
+      const std::uint64_t before = pairs, first = pairs & -pairs;
+      pairs = internal::PartFirst(lanes_a, lanes_b, offset_, pairs, round);
+      result_.triangle_tests += std::popcount(before ^ pairs);
+      round = (pairs & first) == 0 ? 0 : round + 1;
+    }
+    return pairs;
+  }
+
+  bool CompareFaces(int face_a, int face_b) {
+    const Triage triage = Compare(face_a, face_b);
+    if (triage == Triage::kUnsure && !IsContact(face_a, face_b)) {
+      cache_.unsure.emplace_back(face_a, face_b);
+    }
+    return triage == Triage::kCross;
   }
 
   double SharedVolume(const BoxNode& node_a, int i, const BoxNode& node_b, int j) const {
@@ -151,85 +202,9 @@ class Query {
     return std::abs(volume);
   }
 
-  // The node's triangles in lanes; it is often the same one several times running.
-  struct NodeTriangles {
-    const BoxNode* node = nullptr;
-    internal::TriangleLanes lanes;
-  };
-  const internal::TriangleLanes& TrianglesOf(const PlacedMesh& body, const BoxNode& node,
-                                             NodeTriangles* triangles) const {
-    if (triangles->node != &node) triangles->lanes.Gather(body, node, offset_);
-    triangles->node = &node;
-    return triangles->lanes;
-  }
-
-  // Of the pairs of faces among the lanes, those that are not parted.
-  std::uint64_t NotParted(const BoxNode& node_a, const BoxNode& node_b, std::uint64_t hits) {
-    constexpr std::uint64_t kColumn = 0x0101010101010101, kGather = 0x0102040810204080;
-    const internal::TriangleLanes& lanes = TrianglesOf(pair_.b(), node_b, &triangles_of_b_);
-    for (int i = 0; i < node_a.lane_count; ++i) {
-      const std::uint64_t column = hits >> i & kColumn;
-      if (column == 0 || node_a.children[i] >= 0) continue;
-      const auto of_b = static_cast<unsigned>(column * kGather >> 56);  // bit j
-      const unsigned kept = Count(of_b, internal::LanesNotParted(pair_.a(), ~node_a.children[i],
-                                                                 lanes, offset_.value, offset_));
-      for (unsigned gone = of_b ^ kept; gone != 0; gone &= gone - 1) {
-        hits ^= std::uint64_t{1} << (kTreeWidth * std::countr_zero(gone) + i);
-      }
-    }
-    return hits;
-  }
-
-  // The hits that are not parted; the others were tests of triangles.
-  unsigned Count(unsigned hits, unsigned not_parted) {
-    result_.triangle_tests += std::popcount(hits & ~not_parted);
-    return hits & not_parted;
-  }
-
-  bool CompareFaceOfA(int face, const BoxNode& node_b) {
-    unsigned hits = MeetingLanes(BoxOf(pair_.a(), face), node_b, offset_.value, offset_.error);
-    if (result_.box_tests > kOrdered && HasAtLeast(hits, kManyOfOne)) {
-      const auto& lanes = TrianglesOf(pair_.b(), node_b, &triangles_of_b_);
-      hits = Count(hits, internal::LanesNotParted(pair_.a(), face, lanes, offset_.value, offset_));
-    }
-    for (; hits != 0; hits &= hits - 1) {
-      if (CompareChildren(~face, node_b.children[std::countr_zero(hits)])) return true;
-    }
-    return false;
-  }
-
-  bool CompareFaceOfB(const BoxNode& node_a, int face) {
-    unsigned hits = MeetingLanes(BoxOf(pair_.b(), face), node_a, -offset_.value, offset_.error);
-    if (result_.box_tests > kOrdered && HasAtLeast(hits, kManyOfOne)) {
-      const auto& lanes = TrianglesOf(pair_.a(), node_a, &triangles_of_a_);
-      hits = Count(hits, internal::LanesNotParted(pair_.b(), face, lanes, -offset_.value, offset_));
-    }
-    for (; hits != 0; hits &= hits - 1) {
-      if (CompareChildren(node_a.children[std::countr_zero(hits)], ~face)) return true;
-    }
-    return false;
-  }
-
-  bool CompareChildren(int a, int b) {
-    if (a >= 0 || b >= 0) {
-      cache_.stack.emplace_back(a, b);
-      return false;
-    }
-    const Triage triage = Compare(~a, ~b);
-    if (triage == Triage::kUnsure && !IsContact(~a, ~b)) cache_.unsure.emplace_back(~a, ~b);
-    return triage == Triage::kCross;
-  }
-
   bool IsContact(int face_a, int face_b) const {
     return std::find(contacts_.begin(), contacts_.end(), std::pair(face_a, face_b)) !=
            contacts_.end();
-  }
-
-  static Box3 BoxOf(const PlacedMesh& mesh, int face) {
-    const Triangle& corners = mesh.mesh.face(face);
-    const auto &a = mesh.points[corners[0]], &b = mesh.points[corners[1]],
-               &c = mesh.points[corners[2]];
-    return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
   }
 
   MembershipResult DecideUnsureInDoubles() {
@@ -327,7 +302,6 @@ class Query {
   const bool is_exact_;
   const std::span<const std::pair<int, int>> contacts_;
   MembershipCache& cache_;
-  NodeTriangles triangles_of_a_, triangles_of_b_;
   MembershipResult result_;
 };
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace touchstone {
@@ -17,12 +18,51 @@ constexpr double kUnderflow = 0x1p-1000;
 
 double MaxAbs(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
 
+// For each leaf the mean of its faces' normals, or that of the face in lane `lane`.
+void FindNormals(const BoxTree& tree, std::span<const FacePlane> planes, std::optional<int> lane,
+                 std::span<Vector3d> normals) {
+  for (const BoxNode& node : tree.nodes()) {
+    if (node.leaf < 0) continue;
+    Vector3d& normal = normals[node.leaf];
+    normal.setZero();
+    for (int i = 0; i < node.lane_count; ++i) {
+      if (!lane || i == *lane) normal += planes[~node.children[i]].normal;
+    }
+    normal.normalize();
+  }
+}
+
+// Of these normals the ones across which the leaves' slabs are thinnest, which are set. Requires
+// lanes whose corners are set.
+void FindThinSlabs(const BoxTree& tree, std::span<const FacePlane> planes,
+                   std::span<FaceLanes> leaves, std::vector<Vector3d>* directions) {
+  directions->resize(leaves.size());
+  FindNormals(tree, planes, std::nullopt, *directions);
+  FindSlabs(*directions, leaves);
+  std::vector<double> thickness(leaves.size());
+  for (std::size_t l = 0; l < leaves.size(); ++l) thickness[l] = leaves[l].high - leaves[l].low;
+  std::vector<Vector3d> normals(leaves.size());
+  for (int lane = 0; lane < kTreeWidth; ++lane) {
+    FindNormals(tree, planes, lane, normals);
+    FindSlabs(normals, leaves);
+    for (std::size_t l = 0; l < leaves.size(); ++l) {
+      // Nothing is across a normal of no length.
+      if (!(leaves[l].length > 0.5) || !(leaves[l].high - leaves[l].low < thickness[l])) continue;
+      thickness[l] = leaves[l].high - leaves[l].low;
+      (*directions)[l] = normals[l];
+    }
+  }
+  FindSlabs(*directions, leaves);
+}
+
 }  // namespace
 
 MeshPair::MeshPair(TriangleMesh a, TriangleMesh b, const RelativePose& pose)
-    : a_{std::move(a), {}, 0.0, {}, {}}, b_{std::move(b), {}, 0.0, {}, {}} {
-  a_.tree = a_.mesh.box_tree();
-  b_.tree = b_.mesh.box_tree();
+    : a_{std::move(a), {}, 0.0, {}, {}, {}}, b_{std::move(b), {}, 0.0, {}, {}, {}} {
+  for (PlacedMesh* placed : {&a_, &b_}) {
+    placed->tree = placed->mesh.box_tree();
+    placed->leaves.resize(placed->tree.leaf_count());
+  }
   Place(pose);
 }
 
@@ -40,12 +80,16 @@ void MeshPair::Place(const RelativePose& pose) {
     a_.points.resize(a_.mesh.vertex_count());
     for (int v = 0; v < a_.mesh.vertex_count(); ++v) a_.points[v] = scale_ * a_.mesh.vertex(v);
     a_.point_error = kUnderflow;
-    a_.tree.Fit(a_.points, a_.mesh.faces());
     FindPlanes(a_.mesh, &a_.planes);
     for (FacePlane& plane : a_.planes) plane.height = plane.normal.dot(a_.points[plane.vertex]);
+    a_.tree.Fit(a_.points, a_.mesh.faces(), a_.leaves);
     FindPlanes(b_.mesh, &own_planes_of_b_);
+    if (is_new) {
+      FindDirections();
+    } else {
+      FindSlabs(directions_of_a_, a_.leaves);
+    }
   }
-  b_.points.resize(b_.mesh.vertex_count());
   const Vector3d translation = scale_ * pose.translation();
   for (int v = 0; v < b_.mesh.vertex_count(); ++v) {
     const Vector3d scaled = scale_ * b_.mesh.vertex(v);
@@ -57,8 +101,28 @@ void MeshPair::Place(const RelativePose& pose) {
   b_.point_error = 4.1 * kUnit + kUnderflow +
                    scale_ * (3.01 * pose.rotation_error() * b_.mesh.max_coordinate() +
                              1.01 * pose.translation_error());
-  b_.tree.Fit(b_.points, b_.mesh.faces());
   PlacePlanesOfB();
+  PlaceTreeOfB();
+}
+
+// Across which slabs are thin does not depend on the scale.
+void MeshPair::FindDirections() {
+  FindThinSlabs(a_.tree, a_.planes, a_.leaves, &directions_of_a_);
+  b_.points.resize(b_.mesh.vertex_count());
+  for (int v = 0; v < b_.mesh.vertex_count(); ++v) b_.points[v] = scale_ * b_.mesh.vertex(v);
+  b_.tree.Fit(b_.points, b_.mesh.faces(), b_.leaves);
+  FindThinSlabs(b_.tree, own_planes_of_b_, b_.leaves, &own_directions_of_b_);
+}
+
+void MeshPair::PlaceTreeOfB() {
+  b_.tree.Fit(b_.points, b_.mesh.faces(), b_.leaves);
+  const Eigen::Matrix3d& rotation = pose_.rotation();
+  directions_of_b_.resize(own_directions_of_b_.size());
+  for (std::size_t l = 0; l < directions_of_b_.size(); ++l) {
+    const Vector3d& n = own_directions_of_b_[l];
+    directions_of_b_[l] = n[0] * rotation.col(0) + n[1] * rotation.col(1) + n[2] * rotation.col(2);
+  }
+  FindSlabs(directions_of_b_, b_.leaves);
 }
 
 // In the mesh's own frame, scaled; leaves out heights.

@@ -16,6 +16,7 @@
 #include "touchstone/core/base/orientation.h"
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/mesh/box_tree.h"
+#include "touchstone/core/mesh/face_lanes.h"
 #include "touchstone/core/mesh/triangle_mesh.h"
 
 namespace touchstone {
@@ -50,6 +51,7 @@ struct PlacedMesh {
   double point_error = 0.0;
   std::vector<FacePlane> planes;
   BoxTree tree;
+  std::vector<FaceLanes> leaves;  // of the tree, with slabs as thin as normals make them
 };
 
 // Two meshes at a pose, ready to be asked about many translations: coordinates in A's frame times a
@@ -72,10 +74,14 @@ class MeshPair {
 
  private:
   void FindPlanes(const TriangleMesh& mesh, std::vector<FacePlane>* planes) const;
+  void FindDirections();
   void PlacePlanesOfB();
+  void PlaceTreeOfB();
 
   PlacedMesh a_, b_;
-  std::vector<FacePlane> own_planes_of_b_;  // in its frame, scaled; without heights
+  // In B's frame: scaled planes without heights, and across what slabs round its leaves are thin.
+  std::vector<FacePlane> own_planes_of_b_;
+  std::vector<Eigen::Vector3d> own_directions_of_b_, directions_of_a_, directions_of_b_;
   RelativePose pose_;
   double scale_ = 1.0;
 };

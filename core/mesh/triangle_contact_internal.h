@@ -26,10 +26,13 @@ struct Offset {
   // times its normal's error.
   double for_length, for_error;
 };
+inline constexpr double kUnderflow = 0x1p-1000;
 Offset MakeOffset(const MeshPair& pair, const Translation& x);
 // The least height of a point over a plane that is one for certain, where the point, the plane's
 // own and the offset were multiplied by the normal apart.
-double LeastHeight(const FacePlane& plane, const Offset& offset);
+inline double LeastHeight(const FacePlane& plane, const Offset& offset) {
+  return offset.for_length * plane.length + offset.for_error * plane.error + kUnderflow;
+}
 
 // What doubles prove of two closed triangles.
 enum class Triage {

@@ -1,130 +1,207 @@
 // SPDX-License-Identifier: MIT
+//
+// A plane is n . y = c for any n in doubles, so it knows no error of its own; what is bounded are
+// heights along it. With L the sum of |n_i|, coordinates of points at most 1 and reach = 2 + |x|:
+// n . a, n . b and n . x are off by three products and two sums, 3.01 units of L reach together;
+// n . a - n . x and the least height on top by two roundings, 2.02 units of L reach and one of that
+// height. Whether the result is above n . b is told exactly. The offset's error is 2.02 units of
+// reach at least, so that is below 2.6 L error; points and offset add L error. Below 3.7 in all,
+// where the least height has 4.04 (MakeOffset).
 #include "touchstone/core/mesh/triangle_lanes_internal.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
-#include "touchstone/core/base/vector_clones.h"
+#include "touchstone/core/mesh/lanes_internal.h"
 
 namespace touchstone::internal {
 namespace {
 
-constexpr double kUnderflow = 0x1p-1000;
-constexpr int kManyForSides = 3;  // lanes in doubt from which on it pays to look at all at once
+using Eigen::Vector3d;
+
+// Lanes some corner of which is below n . y = high, and some above n . y = low.
+TOUCHSTONE_INLINE std::uint64_t NotBeyond(const double n[3], double low, double high,
+                                          const FaceLanes& lanes) {
+  const auto* corners = reinterpret_cast<const Reals*>(lanes.corners);
+  const Reals a = n[0] * corners[0] + n[1] * corners[1] + n[2] * corners[2],
+              b = n[0] * corners[3] + n[1] * corners[4] + n[2] * corners[5],
+              c = n[0] * corners[6] + n[1] * corners[7] + n[2] * corners[8];
+  const Flags below = (Flags)(a - high) | (Flags)(b - high) | (Flags)(c - high),
+              above = (Flags)(low - a) | (Flags)(low - b) | (Flags)(low - c);
+  return ClearLanes(~(below & above));
+}
+
+// Lanes that a slab of the other body does not part from what it holds. `sign` is 1 for lanes of B,
+// which the offset moves, and -1 for those of A.
+TOUCHSTONE_INLINE std::uint64_t NotPartedBySlab(const FaceLanes& slab, const FaceLanes& lanes,
+                                                double sign, const Offset& offset) {
+  const double n[] = {slab.direction[0], slab.direction[1], slab.direction[2]};
+  const Vector3d& move = offset.value;
+  const double shift = sign * (n[0] * move[0] + n[1] * move[1] + n[2] * move[2]);
+  const double least = offset.for_length * slab.length + kUnderflow;
+  return NotBeyond(n, slab.low - shift - least, slab.high - shift + least, lanes);
+}
+
+// The pairs among lanes `of_a` and `of_b` whose boxes meet.
+TOUCHSTONE_INLINE std::uint64_t Meeting(const BoxNode& a, const BoxNode& b, const Offset& offset,
+                                        std::uint64_t of_a, std::uint64_t of_b) {
+  const auto* lows = reinterpret_cast<const Reals*>(a.low);
+  const auto* highs = reinterpret_cast<const Reals*>(a.high);
+  const Lanes lanes = {lows[0], lows[1], lows[2], highs[0], highs[1], highs[2]};
+  const Vector3d& move = offset.value;
+  std::uint64_t pairs = 0;
+  for (; of_b != 0; of_b &= of_b - 1) {
+    const int j = std::countr_zero(of_b);
+    double low[3], high[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = b.low[axis][j] + move[axis] - offset.error;
+      high[axis] = b.high[axis][j] + move[axis] + offset.error;
+    }
+    Flags misses;
+    FindMisses(lanes, low, high, &misses);
+    pairs |= (ClearLanes(misses) & of_a) << (kTreeWidth * j);
+  }
+  return pairs;
+}
+
+// Directions across two sides u and v, and where they run: of points 0 to 2 of A and 3 to 5 of B.
+// In round 0 first those of one face: its normal.
+using Indices = std::int64_t __attribute__((vector_size(8 * kTreeWidth)));
+struct Sides {
+  Indices u_from, u_to, v_from, v_to;
+};
+constexpr Sides kSides[kPartingRounds] = {{{0, 3, 0, 1, 2, 0, 1, 2},
+                                           {1, 4, 1, 2, 0, 1, 2, 0},
+                                           {0, 3, 3, 3, 3, 4, 4, 4},
+                                           {2, 5, 4, 4, 4, 5, 5, 5}},
+                                          {{0, 1, 2, 0, 1, 2, 0, 1},
+                                           {1, 2, 0, 1, 2, 0, 1, 2},
+                                           {5, 5, 5, 5, 5, 5, 5, 5},
+                                           {3, 3, 3, 3, 3, 3, 3, 3}}};
+
+using Points = double[3][kTreeWidth];
+
+// Along each of eight directions the range of the points `first` to first + 2.
+TOUCHSTONE_INLINE void FindRanges(const Points& directions, const Points& points, int first,
+                                  double low[kTreeWidth], double high[kTreeWidth]) {
+  const auto &x = points[0], &y = points[1], &z = points[2];
+  for (int i = 0; i < kTreeWidth; ++i) {
+    const double nx = directions[0][i], ny = directions[1][i], nz = directions[2][i];
+    const double a = nx * x[first] + ny * y[first] + nz * z[first],
+                 b = nx * x[first + 1] + ny * y[first + 1] + nz * z[first + 1],
+                 c = nx * x[first + 2] + ny * y[first + 2] + nz * z[first + 2];
+    const double least = a < b ? a : b, most = a < b ? b : a;
+    low[i] = least < c ? least : c;
+    high[i] = most < c ? c : most;
+  }
+}
+
+// Of the directions the one along which the triangles are farthest apart; nothing depends on it
+// being so.
+TOUCHSTONE_INLINE void FindDirection(const Points& points, const Sides& sides, double best[3]) {
+  Reals x, y, z;
+  std::memcpy(&x, points[0], sizeof x);
+  std::memcpy(&y, points[1], sizeof y);
+  std::memcpy(&z, points[2], sizeof z);
+  const Reals ux = __builtin_shuffle(x, sides.u_to) - __builtin_shuffle(x, sides.u_from),
+              uy = __builtin_shuffle(y, sides.u_to) - __builtin_shuffle(y, sides.u_from),
+              uz = __builtin_shuffle(z, sides.u_to) - __builtin_shuffle(z, sides.u_from),
+              vx = __builtin_shuffle(x, sides.v_to) - __builtin_shuffle(x, sides.v_from),
+              vy = __builtin_shuffle(y, sides.v_to) - __builtin_shuffle(y, sides.v_from),
+              vz = __builtin_shuffle(z, sides.v_to) - __builtin_shuffle(z, sides.v_from);
+  const Reals across[3] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+  const Reals squares = across[0] * across[0] + across[1] * across[1] + across[2] * across[2];
+  Points directions;
+  double squared[kTreeWidth], gaps[kTreeWidth];
+  std::memcpy(directions, across, sizeof directions);
+  std::memcpy(squared, &squares, sizeof squared);
+  double low_a[kTreeWidth], high_a[kTreeWidth], low_b[kTreeWidth], high_b[kTreeWidth];
+  FindRanges(directions, points, 0, low_a, high_a);
+  FindRanges(directions, points, 3, low_b, high_b);
+  for (int i = 0; i < kTreeWidth; ++i) {
+    const double one = low_b[i] - high_a[i], other = low_a[i] - high_b[i];
+    const double gap = one < other ? other : one;
+    gaps[i] = gap * std::abs(gap) / (squared[i] + kUnderflow);
+  }
+  double least, most;
+  FindExtent(gaps, gaps, &least, &most);
+  Reals all;
+  std::memcpy(&all, gaps, sizeof all);
+  const int widest = std::countr_zero(ClearLanes((Flags)(all - most))) % kTreeWidth;
+  for (int axis = 0; axis < 3; ++axis) best[axis] = directions[axis][widest];
+}
+
+// The least and the greatest height of each lane's corners along n.
+TOUCHSTONE_INLINE void FindHeights(const double n[3], const FaceLanes& lanes,
+                                   double low[kTreeWidth], double high[kTreeWidth]) {
+  const auto &p = lanes.corners[0], &q = lanes.corners[1], &r = lanes.corners[2];
+  for (int i = 0; i < kTreeWidth; ++i) {
+    const double a = n[0] * p[0][i] + n[1] * p[1][i] + n[2] * p[2][i],
+                 b = n[0] * q[0][i] + n[1] * q[1][i] + n[2] * q[2][i],
+                 c = n[0] * r[0][i] + n[1] * r[1][i] + n[2] * r[2][i];
+    const double least = a < b ? a : b, most = a < b ? b : a;
+    low[i] = least < c ? least : c;
+    high[i] = most < c ? c : most;
+  }
+}
+
+// The pairs that no plane across n parts.
+TOUCHSTONE_INLINE std::uint64_t NotPartedAcross(const double n[3], const FaceLanes& lanes_a,
+                                                const FaceLanes& lanes_b, const Offset& offset,
+                                                std::uint64_t pairs) {
+  const Vector3d& move = offset.value;
+  const double shift = n[0] * move[0] + n[1] * move[1] + n[2] * move[2];
+  const double length = std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
+  const double least = offset.for_length * length + kUnderflow;
+  double up[kTreeWidth], down[kTreeWidth], low[kTreeWidth], high[kTreeWidth];
+  FindHeights(n, lanes_a, down, up);
+  FindHeights(n, lanes_b, low, high);
+  for (int i = 0; i < kTreeWidth; ++i) {
+    up[i] = up[i] - shift + least;
+    down[i] = down[i] - shift - least;
+  }
+  Reals ups, downs;
+  std::memcpy(&ups, up, sizeof ups);
+  std::memcpy(&downs, down, sizeof downs);
+  for (int j = 0; j < kTreeWidth; ++j) {
+    if ((pairs >> (kTreeWidth * j) & 0xff) == 0) continue;
+    const Flags doubtful = (Flags)(low[j] - ups) & (Flags)(downs - high[j]);
+    pairs &= ~(ClearLanes(doubtful) << (kTreeWidth * j));
+  }
+  return pairs;
+}
 
 }  // namespace
 
-using Eigen::Vector3d;
-
-void TriangleLanes::Gather(const PlacedMesh& body, const BoxNode& node, const Offset& offset) {
-  faces = 0;
-  for (int lane = 0; lane < kTreeWidth; ++lane) {
-    const bool is_face = node.children[lane] < 0;
-    const int face = is_face ? ~node.children[lane] : 0;
-    faces |= is_face ? 1u << lane : 0;
-    const Triangle& vertices = body.mesh.face(face);
-    const FacePlane& plane = body.planes[face];
-    for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < 3; ++k) corners[k][i][lane] = body.points[vertices[k]][i];
-      normal[i][lane] = plane.normal[i];
-    }
-    height[lane] = plane.height;
-    least[lane] = LeastHeight(plane, offset);
-  }
-}
-
-// Lanes that the planes do not part, as Triager::PlaneOfA and PlaneOfB.
-TOUCHSTONE_INLINE std::uint64_t NotPartedByPlanes(const FacePlane& plane,
-                                                  const Vector3d* const own[3],
-                                                  const TriangleLanes& lanes, const double move[3],
-                                                  double least) {
-  const double n[] = {plane.normal[0], plane.normal[1], plane.normal[2]};
-  const double height = plane.height - (n[0] * move[0] + n[1] * move[1] + n[2] * move[2]);
-  double low[kTreeWidth], high[kTreeWidth], low_own[kTreeWidth], high_own[kTreeWidth];
-  for (int i = 0; i < kTreeWidth; ++i) low[i] = low_own[i] = 1e300, high[i] = high_own[i] = -1e300;
-  for (int k = 0; k < 3; ++k) {
-    const auto& corner = lanes.corners[k];
-    const double x = (*own[k])[0], y = (*own[k])[1], z = (*own[k])[2];
-    for (int i = 0; i < kTreeWidth; ++i) {
-      const double above = n[0] * corner[0][i] + n[1] * corner[1][i] + n[2] * corner[2][i] - height;
-      low[i] = above < low[i] ? above : low[i];
-      high[i] = above > high[i] ? above : high[i];
-      const double nx = lanes.normal[0][i], ny = lanes.normal[1][i], nz = lanes.normal[2][i];
-      const double own_above = nx * x + ny * y + nz * z -
-                               (lanes.height[i] + (nx * move[0] + ny * move[1] + nz * move[2]));
-      low_own[i] = own_above < low_own[i] ? own_above : low_own[i];
-      high_own[i] = own_above > high_own[i] ? own_above : high_own[i];
-    }
-  }
-  std::int64_t doubtful[kTreeWidth], mask = 0;
-  for (int i = 0; i < kTreeWidth; ++i) doubtful[i] = std::int64_t{1} << i;
-  for (int i = 0; i < kTreeWidth; ++i) {
-    const bool is_parted = (low[i] > least) | (high[i] < -least) | (low_own[i] > lanes.least[i]) |
-                           (high_own[i] < -lanes.least[i]);
-    doubtful[i] = is_parted ? 0 : doubtful[i];
-  }
-  for (int i = 0; i < kTreeWidth; ++i) mask |= doubtful[i];
-  return static_cast<std::uint64_t>(mask);
-}
-
-// Lanes that no plane along a side of either parts: a side u of one and v of the other have the
-// normal u x v, off by two roundings on each of two paths and what the sides are off by, at most e;
-// heights over it are off as over a face's plane. Both ends of a side are as high, exactly.
-TOUCHSTONE_INLINE std::uint64_t NotPartedBySides(const double own[3][3], const TriangleLanes& lanes,
-                                                 const Offset& offset) {
-  const double e = 2.0 * offset.error;
-  std::int64_t doubtful[kTreeWidth], mask = 0;
-  for (int i = 0; i < kTreeWidth; ++i) doubtful[i] = std::int64_t{1} << i;
-  for (int k = 0; k < 3; ++k) {
-    const double* const p = own[k];
-    const double* const q = own[(k + 2) % 3];  // off the side
-    const double* const next = own[(k + 1) % 3];
-    const double ux = next[0] - p[0], uy = next[1] - p[1], uz = next[2] - p[2];
-    const double lu = std::max(std::max(std::abs(ux), std::abs(uy)), std::abs(uz));
-    for (int m = 0; m < 3; ++m) {
-      const auto &from = lanes.corners[m], &to = lanes.corners[(m + 1) % 3],
-                 &off = lanes.corners[(m + 2) % 3];
-      for (int i = 0; i < kTreeWidth; ++i) {
-        const double vx = to[0][i] - from[0][i], vy = to[1][i] - from[1][i],
-                     vz = to[2][i] - from[2][i];
-        const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-        const double lv = std::abs(vx) + std::abs(vy) + std::abs(vz);
-        const double error = 1.01 * (2.0 * e * (lu + lv + e) + 6.2 * kUnit * lu * lv) + kUnderflow;
-        const double least = offset.for_length * (std::abs(nx) + std::abs(ny) + std::abs(nz)) +
-                             offset.for_error * error + kUnderflow;
-        const double a = nx * p[0] + ny * p[1] + nz * p[2], b = nx * q[0] + ny * q[1] + nz * q[2];
-        const double c = nx * from[0][i] + ny * from[1][i] + nz * from[2][i],
-                     d = nx * off[0][i] + ny * off[1][i] + nz * off[2][i];
-        const double low = a < b ? a : b, high = a < b ? b : a;
-        const double low_lane = c < d ? c : d, high_lane = c < d ? d : c;
-        const bool is_parted = (low_lane - high > least) | (low - high_lane > least);
-        doubtful[i] = is_parted ? 0 : doubtful[i];
-      }
-    }
-  }
-  for (int i = 0; i < kTreeWidth; ++i) mask |= doubtful[i];
-  return static_cast<std::uint64_t>(mask);
-}
-
 TOUCHSTONE_VECTOR_CLONES
-std::uint8_t LanesNotParted(const PlacedMesh& body, int face, const TriangleLanes& lanes,
-                            const Vector3d& move, const Offset& offset) {
-  const FacePlane& plane = body.planes[face];
-  const Triangle& vertices = body.mesh.face(face);
-  const Vector3d* const own[] = {&body.points[vertices[0]], &body.points[vertices[1]],
-                                 &body.points[vertices[2]]};
-  const double by[] = {move[0], move[1], move[2]};
-  std::uint64_t mask =
-      lanes.faces & NotPartedByPlanes(plane, own, lanes, by, LeastHeight(plane, offset));
-  if (std::popcount(mask) >= kManyForSides) {
-    double moved[3][3];
+std::uint64_t MeetingFaces(const PlacedMesh& a, const BoxNode& leaf_a, const PlacedMesh& b,
+                           const BoxNode& leaf_b, const Offset& offset) {
+  const FaceLanes &lanes_a = a.leaves[leaf_a.leaf], &lanes_b = b.leaves[leaf_b.leaf];
+  const std::uint64_t of_b =
+      ((1u << leaf_b.lane_count) - 1) & NotPartedBySlab(lanes_a, lanes_b, 1.0, offset);
+  if (of_b == 0) return 0;
+  const std::uint64_t of_a =
+      ((1u << leaf_a.lane_count) - 1) & NotPartedBySlab(lanes_b, lanes_a, -1.0, offset);
+  if (of_a == 0) return 0;
+  return Meeting(leaf_a, leaf_b, offset, of_a, of_b);
+}
+
+// One direction a call: of a loop here GCC 12 takes all loads out, and spills them.
+TOUCHSTONE_VECTOR_CLONES
+std::uint64_t PartFirst(const FaceLanes& lanes_a, const FaceLanes& lanes_b, const Offset& offset,
+                        std::uint64_t pairs, int round) {
+  const int first = std::countr_zero(pairs), i = first % kTreeWidth, j = first / kTreeWidth;
+  Points points = {};
+  for (int axis = 0; axis < 3; ++axis) {
     for (int k = 0; k < 3; ++k) {
-      for (int axis = 0; axis < 3; ++axis) moved[k][axis] = (*own[k])[axis] - by[axis];
+      points[axis][k] = lanes_a.corners[k][axis][i] - offset.value[axis];
+      points[axis][3 + k] = lanes_b.corners[k][axis][j];
     }
-    mask &= NotPartedBySides(moved, lanes, offset);
   }
-  return static_cast<std::uint8_t>(mask | ~lanes.faces);
+  double direction[3];
+  FindDirection(points, kSides[round], direction);
+  return NotPartedAcross(direction, lanes_a, lanes_b, offset, pairs);
 }
 
 }  // namespace touchstone::internal

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// One triangle against eight: most whose boxes meet are parted by the plane of one of them.
+// Eight triangles against eight: a plane that parts two of them mostly parts others.
 #ifndef TOUCHSTONE_CORE_MESH_TRIANGLE_LANES_INTERNAL_H_
 #define TOUCHSTONE_CORE_MESH_TRIANGLE_LANES_INTERNAL_H_
+
+#include <cstdint>
 
 #include "touchstone/core/mesh/triangle_contact_internal.h"
 
 namespace touchstone::internal {
 
-// The faces among a node's children, and their planes, in lanes.
-struct alignas(64) TriangleLanes {
-  double corners[3][3][kTreeWidth];  // of corner k, axis i
-  double normal[3][kTreeWidth], height[kTreeWidth], least[kTreeWidth];
-  std::uint8_t faces;  // bit l: whether lane l is one
-
-  void Gather(const PlacedMesh& body, const BoxNode& node, const Offset& offset);
-};
-
-// Which lanes the planes of both triangles leave in doubt, or are no faces: of the others doubles
-// prove that they are apart from the face. `move` is the offset of the lanes' body from the other.
-std::uint8_t LanesNotParted(const PlacedMesh& body, int face, const TriangleLanes& lanes,
-                            const Eigen::Vector3d& move, const Offset& offset);
+// Pairs of faces of two leaves: bit 8 j + i for faces i of A's and j of B's. Of those that are left
+// out doubles prove that they share no point.
+//
+// Leaves out what either leaf's slab or the faces' boxes part.
+std::uint64_t MeetingFaces(const PlacedMesh& a, const BoxNode& leaf_a, const PlacedMesh& b,
+                           const BoxNode& leaf_b, const Offset& offset);
+// Looks for a plane that parts the first of the pairs, and leaves out all that it parts. It lies
+// across a side of each or along one of the faces; of these eleven planes the best of eight is
+// taken in round 0, the best of the others in round 1. Requires a pair.
+inline constexpr int kPartingRounds = 2;
+std::uint64_t PartFirst(const FaceLanes& lanes_a, const FaceLanes& lanes_b, const Offset& offset,
+                        std::uint64_t pairs, int round);
 
 }  // namespace touchstone::internal
 

@@ -10,8 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kUnderflow = 0x1p-1000;
-
 double MaxAbs(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
 
 // Everything about two triangles that doubles can tell.
@@ -231,10 +229,6 @@ Offset MakeOffset(const MeshPair& pair, const Translation& x) {
                        kUnderflow;
   const double reach = 2.0 + MaxAbs(value);
   return {value, error, 4.04 * error, 3.03 * (reach + error)};
-}
-
-double LeastHeight(const FacePlane& plane, const Offset& offset) {
-  return offset.for_length * plane.length + offset.for_error * plane.error + kUnderflow;
 }
 
 Triage TriageTriangles(const MeshPair& pair, int face_a, int face_b, const Offset& offset,

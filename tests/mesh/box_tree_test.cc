@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
+#include "touchstone/core/mesh/face_lanes.h"
 #include "touchstone/tests/testing/random.h"
 
 namespace touchstone {
@@ -78,6 +80,69 @@ TEST(BoxTree, ANodeKnowsTheBoxOfAllItsLanes) {
     }
     EXPECT_EQ(node.whole.low, all.low);
     EXPECT_EQ(node.whole.high, all.high);
+  }
+}
+
+// A run of one item beside runs of eight or 64 is a leaf like the others.
+TEST(BoxTree, NodesHoldNodesOrItems) {
+  testing::Random random(33);
+  for (const int count : {1, 2, 7, 8, 9, 63, 64, 65, 72, 73, 512, 513, 577, 1000}) {
+    const BoxTree tree = TreeOnTheGrid(&random, count);
+    std::vector<int> times(count, 0);
+    int leaves = 0;
+    for (const BoxNode& node : tree.nodes()) {
+      if (node.leaf >= 0) {
+        EXPECT_EQ(node.leaf, leaves++);
+      }
+      for (int lane = 0; lane < node.lane_count; ++lane) {
+        ASSERT_EQ(node.children[lane] < 0, node.leaf >= 0) << count;
+        if (node.leaf >= 0) ++times[~node.children[lane]];
+      }
+    }
+    EXPECT_EQ(leaves, tree.leaf_count());
+    EXPECT_EQ(std::count(times.begin(), times.end(), 1), count);
+  }
+}
+
+// The lanes of a leaf are its faces' corners, unused ones those of the first; boxes are of these.
+TEST(BoxTree, FitsLanesAndBoxesToFaces) {
+  testing::Random random(34);
+  for (const int count : {1, 9, 65, 200}) {
+    std::vector<Vector3d> points;
+    std::vector<Triangle> faces;
+    for (int i = 0; i < count + 2; ++i) points.push_back(random.Direction());
+    for (int i = 0; i < count; ++i) faces.push_back({i, i + 1, i + 2});
+    BoxTree tree(points, faces);
+    for (Vector3d& point : points) point = 3.0 * random.Direction();
+    std::vector<FaceLanes> lanes(tree.leaf_count());
+    tree.Fit(points, faces, lanes);
+    std::vector<Vector3d> directions;
+    for (std::size_t l = 0; l < lanes.size(); ++l) directions.push_back(random.Direction());
+    FindSlabs(directions, lanes);
+    for (const BoxNode& node : tree.nodes()) {
+      if (node.leaf < 0) continue;
+      const FaceLanes& leaf = lanes[node.leaf];
+      double low = 1e300, high = -1e300;
+      for (int lane = 0; lane < kTreeWidth; ++lane) {
+        const Triangle& face = faces[~node.children[lane < node.lane_count ? lane : 0]];
+        Box3 box = {points[face[0]], points[face[0]]};
+        for (int k = 0; k < 3; ++k) {
+          const Vector3d& point = points[face[k]];
+          box = {box.low.cwiseMin(point), box.high.cwiseMax(point)};
+          for (int i = 0; i < 3; ++i) ASSERT_EQ(leaf.corners[k][i][lane], point[i]);
+          const double height = leaf.direction[0] * point[0] + leaf.direction[1] * point[1] +
+                                leaf.direction[2] * point[2];
+          low = std::min(low, height);
+          high = std::max(high, height);
+        }
+        if (lane >= node.lane_count) continue;
+        EXPECT_EQ(LaneOf(node, lane).low, box.low);
+        EXPECT_EQ(LaneOf(node, lane).high, box.high);
+      }
+      EXPECT_EQ(leaf.low, low);
+      EXPECT_EQ(leaf.high, high);
+      EXPECT_EQ(leaf.length, leaf.direction.cwiseAbs().sum());
+    }
   }
 }
 
