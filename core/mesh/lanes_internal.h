@@ -28,6 +28,15 @@ TOUCHSTONE_INLINE std::uint64_t ClearLanes(const Flags& flags) {
   return all * 0x0101010101010101 >> 56;
 }
 
+// The same in halves: vectors of eight that the processor lacks GCC 12 keeps in memory.
+using HalfReals = double __attribute__((vector_size(4 * kTreeWidth), may_alias));
+using HalfFlags = std::uint64_t __attribute__((vector_size(4 * kTreeWidth)));
+TOUCHSTONE_INLINE std::uint64_t ClearLanes(const HalfFlags& low, const HalfFlags& high) {
+  const HalfFlags low_bits = {1, 2, 4, 8}, high_bits = {16, 32, 64, 128};
+  const HalfFlags bits = (((low >> 63) - 1) & low_bits) | (((high >> 63) - 1) & high_bits);
+  return bits[0] | bits[1] | bits[2] | bits[3];
+}
+
 // The least of all lows and the greatest of all highs.
 TOUCHSTONE_INLINE void FindExtent(const double low[kTreeWidth], const double high[kTreeWidth],
                                   double* lowest, double* highest) {

@@ -162,7 +162,9 @@ class Query {
   bool CompareLeaves(const BoxNode& leaf_a, const BoxNode& leaf_b) {
     const FaceLanes &lanes_a = pair_.a().leaves[leaf_a.leaf],
                     &lanes_b = pair_.b().leaves[leaf_b.leaf];
-    std::uint64_t pairs = internal::MeetingFaces(pair_.a(), leaf_a, pair_.b(), leaf_b, offset_);
+    std::uint64_t pairs =
+        in_eights_ ? internal::MeetingFacesInEights(pair_.a(), leaf_a, pair_.b(), leaf_b, offset_)
+                   : internal::MeetingFacesInFours(pair_.a(), leaf_a, pair_.b(), leaf_b, offset_);
     for (; pairs != 0; pairs &= pairs - 1) {
       if (result_.triangle_tests >= kAlone) pairs = WithoutParted(lanes_a, lanes_b, pairs);
       if (pairs == 0) break;
@@ -302,6 +304,7 @@ class Query {
   const bool is_exact_;
   const std::span<const std::pair<int, int>> contacts_;
   MembershipCache& cache_;
+  const bool in_eights_ = internal::HasEights();
   MembershipResult result_;
 };
 

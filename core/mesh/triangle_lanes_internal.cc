@@ -15,32 +15,56 @@
 
 #include "touchstone/core/mesh/lanes_internal.h"
 
+// Where core/base/vector_clones.h makes them.
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&                           \
+    !defined(TOUCHSTONE_NO_AVX512)
+#define TOUCHSTONE_HAS_AVX512_CLONES
+#endif
+
 namespace touchstone::internal {
 namespace {
 
 using Eigen::Vector3d;
 
-// Lanes some corner of which is below n . y = high, and some above n . y = low.
+// Lanes some corner of which is below n . y = high, and some above n . y = low: clear bits 63.
+template <class Vector, class Bits>
+TOUCHSTONE_INLINE void FindBeyond(const double n[3], double low, double high, const Vector* x,
+                                  int step, Bits* beyond) {
+  const Vector a = n[0] * x[0] + n[1] * x[step] + n[2] * x[2 * step],
+               b = n[0] * x[3 * step] + n[1] * x[4 * step] + n[2] * x[5 * step],
+               c = n[0] * x[6 * step] + n[1] * x[7 * step] + n[2] * x[8 * step];
+  const Bits below = (Bits)(a - high) | (Bits)(b - high) | (Bits)(c - high),
+             above = (Bits)(low - a) | (Bits)(low - b) | (Bits)(low - c);
+  *beyond = ~(below & above);
+}
+
+template <bool kInEights>
 TOUCHSTONE_INLINE std::uint64_t NotBeyond(const double n[3], double low, double high,
                                           const FaceLanes& lanes) {
-  const auto* corners = reinterpret_cast<const Reals*>(lanes.corners);
-  const Reals a = n[0] * corners[0] + n[1] * corners[1] + n[2] * corners[2],
-              b = n[0] * corners[3] + n[1] * corners[4] + n[2] * corners[5],
-              c = n[0] * corners[6] + n[1] * corners[7] + n[2] * corners[8];
-  const Flags below = (Flags)(a - high) | (Flags)(b - high) | (Flags)(c - high),
-              above = (Flags)(low - a) | (Flags)(low - b) | (Flags)(low - c);
-  return ClearLanes(~(below & above));
+  if constexpr (kInEights) {
+    Flags beyond;
+    FindBeyond(n, low, high, reinterpret_cast<const Reals*>(lanes.corners), 1, &beyond);
+    return ClearLanes(beyond);
+  } else {
+    const auto* x = reinterpret_cast<const HalfReals*>(lanes.corners);
+    HalfFlags beyond[2];
+    FindBeyond(n, low, high, x, 2, &beyond[0]);
+    FindBeyond(n, low, high, x + 1, 2, &beyond[1]);
+    return ClearLanes(beyond[0], beyond[1]);
+  }
 }
 
 // Lanes that a slab of the other body does not part from what it holds. `sign` is 1 for lanes of B,
 // which the offset moves, and -1 for those of A.
+template <bool kInEights>
 TOUCHSTONE_INLINE std::uint64_t NotPartedBySlab(const FaceLanes& slab, const FaceLanes& lanes,
                                                 double sign, const Offset& offset) {
   const double n[] = {slab.direction[0], slab.direction[1], slab.direction[2]};
   const Vector3d& move = offset.value;
   const double shift = sign * (n[0] * move[0] + n[1] * move[1] + n[2] * move[2]);
   const double least = offset.for_length * slab.length + kUnderflow;
-  return NotBeyond(n, slab.low - shift - least, slab.high - shift + least, lanes);
+  return NotBeyond<kInEights>(n, slab.low - shift - least, slab.high - shift + least, lanes);
 }
 
 // The pairs among lanes `of_a` and `of_b` whose boxes meet.
@@ -172,19 +196,40 @@ TOUCHSTONE_INLINE std::uint64_t NotPartedAcross(const double n[3], const FaceLan
   return pairs;
 }
 
-}  // namespace
-
-TOUCHSTONE_VECTOR_CLONES
-std::uint64_t MeetingFaces(const PlacedMesh& a, const BoxNode& leaf_a, const PlacedMesh& b,
-                           const BoxNode& leaf_b, const Offset& offset) {
+template <bool kInEights>
+TOUCHSTONE_INLINE std::uint64_t MeetingFacesOf(const PlacedMesh& a, const BoxNode& leaf_a,
+                                               const PlacedMesh& b, const BoxNode& leaf_b,
+                                               const Offset& offset) {
   const FaceLanes &lanes_a = a.leaves[leaf_a.leaf], &lanes_b = b.leaves[leaf_b.leaf];
   const std::uint64_t of_b =
-      ((1u << leaf_b.lane_count) - 1) & NotPartedBySlab(lanes_a, lanes_b, 1.0, offset);
+      ((1u << leaf_b.lane_count) - 1) & NotPartedBySlab<kInEights>(lanes_a, lanes_b, 1.0, offset);
   if (of_b == 0) return 0;
   const std::uint64_t of_a =
-      ((1u << leaf_a.lane_count) - 1) & NotPartedBySlab(lanes_b, lanes_a, -1.0, offset);
+      ((1u << leaf_a.lane_count) - 1) & NotPartedBySlab<kInEights>(lanes_b, lanes_a, -1.0, offset);
   if (of_a == 0) return 0;
   return Meeting(leaf_a, leaf_b, offset, of_a, of_b);
+}
+
+}  // namespace
+
+bool HasEights() {
+#ifdef TOUCHSTONE_HAS_AVX512_CLONES
+  return __builtin_cpu_supports("avx512f");
+#else
+  return false;
+#endif
+}
+
+TOUCHSTONE_VECTOR_CLONES
+std::uint64_t MeetingFacesInEights(const PlacedMesh& a, const BoxNode& leaf_a, const PlacedMesh& b,
+                                   const BoxNode& leaf_b, const Offset& offset) {
+  return MeetingFacesOf<true>(a, leaf_a, b, leaf_b, offset);
+}
+
+TOUCHSTONE_VECTOR_CLONES
+std::uint64_t MeetingFacesInFours(const PlacedMesh& a, const BoxNode& leaf_a, const PlacedMesh& b,
+                                  const BoxNode& leaf_b, const Offset& offset) {
+  return MeetingFacesOf<false>(a, leaf_a, b, leaf_b, offset);
 }
 
 // One direction a call: of a loop here GCC 12 takes all loads out, and spills them.

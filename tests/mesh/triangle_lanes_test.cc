@@ -37,7 +37,8 @@ void ExpectParted(const MeshPair& pair, const Translation& x, testing::Random* r
   const BoxNode& leaf_a = LeafOf(a, random);
   const BoxNode& leaf_b = LeafOf(b, random);
   const FaceLanes &lanes_a = a.leaves[leaf_a.leaf], &lanes_b = b.leaves[leaf_b.leaf];
-  const std::uint64_t meeting = MeetingFaces(a, leaf_a, b, leaf_b, offset);
+  const std::uint64_t meeting = MeetingFacesInEights(a, leaf_a, b, leaf_b, offset);
+  EXPECT_EQ(MeetingFacesInFours(a, leaf_a, b, leaf_b, offset), meeting);
   std::uint64_t left = meeting, kept = 0;
   while (left != 0) {
     const std::uint64_t first = left & -left;
