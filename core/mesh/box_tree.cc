@@ -147,17 +147,6 @@ void MeetingLanes(const BoxNode& a, const BoxNode& b, const Vector3d& offset, do
   for (int j = b.lane_count; j < kTreeWidth; ++j) masks[j] = 0;
 }
 
-TOUCHSTONE_VECTOR_CLONES
-std::uint8_t MeetingLanes(const Box3& box, const BoxNode& node, const Vector3d& offset,
-                          double margin) {
-  // Seen from where the node is.
-  const double low[3] = {box.low[0] - offset[0] - margin, box.low[1] - offset[1] - margin,
-                         box.low[2] - offset[2] - margin};
-  const double high[3] = {box.high[0] - offset[0] + margin, box.high[1] - offset[1] + margin,
-                          box.high[2] - offset[2] + margin};
-  return static_cast<std::uint8_t>(MeetingMask(low, high, node));
-}
-
 namespace {
 
 // The boxes of the leaf's lanes and of all. (From and to arrays of its own: what may overlap is not

@@ -40,9 +40,6 @@ struct alignas(64) BoxNode {
 // of `a` and lane j of `b`. Boxes that come within `margin` of each other along every axis count.
 void MeetingLanes(const BoxNode& a, const BoxNode& b, const Eigen::Vector3d& offset, double margin,
                   std::uint8_t masks[kTreeWidth]);
-// Which lanes of the node, moved by `offset`, meet the box.
-std::uint8_t MeetingLanes(const Box3& box, const BoxNode& node, const Eigen::Vector3d& offset,
-                          double margin);
 
 // A tree of boxes, over the faces of a mesh or other items. Its shape is made once; the boxes may
 // be fitted again wherever the items are placed.
