@@ -191,7 +191,9 @@ bool BallList::Holds(std::span<const Vector3d> points, double margin) const {
 const BurialBall* BallList::Find(const Vector3d& x, double least) const {
   const BurialBall* best = nullptr;
   for (const BurialBall& ball : balls_) {
-    const double depth = ball.radius - (x - ball.centre).norm();
+    const double squared = (x - ball.centre).squaredNorm();
+    if (!(squared < ball.radius * ball.radius)) continue;
+    const double depth = ball.radius - std::sqrt(squared);
     if (depth > least) least = depth, best = &ball;
   }
   return best;

@@ -53,7 +53,7 @@ void CandidateList::AddPairs(const MeshPair& pair, const ContactBody& body_a,
     const auto [code_a, code_b] = stack_.back();
     stack_.pop_back();
     const FeatureLanes lanes_a = tree_a.lanes(code_a), lanes_b = tree_b.lanes(code_b);
-    const FeatureNode &a = *lanes_a.node, &b = *lanes_b.node;
+    const PlacedFeatureNode &a = *lanes_a.node, &b = *lanes_b.node;
     std::uint8_t masks[kFeatureTreeWidth];
     MeetingFeatures(lanes_a, lanes_b, {radius_, -radius_, center_}, masks);
     for (int j = 0; j < b.lane_count; ++j) {

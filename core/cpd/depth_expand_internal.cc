@@ -116,15 +116,15 @@ void DepthSearcher::Expand(const NodePair& pair) {
   }
 }
 
-void DepthSearcher::AddLanes(const NodePair& pair, const FeatureNode& a, int i,
-                             const FeatureNode& b, int j) {
+void DepthSearcher::AddLanes(const NodePair& pair, const PlacedFeatureNode& a, int i,
+                             const PlacedFeatureNode& b, int j) {
   // Lanes have room for facets at any pose of a list, and a ball moves by no more than the motion
   // from here to there.
   const double margin = listed_ ? listed_motion_ : 0.0;
-  const double radius = a.radius[i] + b.radius[j] + margin;
+  const double radius = margin + a.radius[i] + b.radius[j];
   if (s_.balls.MayHold(radius)) {
-    const Vector3d centre(a.centre[0][i] - b.centre[0][j], a.centre[1][i] - b.centre[1][j],
-                          a.centre[2][i] - b.centre[2][j]);
+    Vector3d centre;
+    for (int k = 0; k < 3; ++k) centre[k] = static_cast<double>(a.centre[k][i]) - b.centre[k][j];
     if (s_.balls.Holds(centre, radius)) return;
   }
   const int child_a = a.children[i], child_b = b.children[j];

@@ -87,7 +87,8 @@ class DepthSearcher {
   void ExpandWithinRadius();
   void Expand(const NodePair& pair);
   // A pair of lanes that meet: its items, or to be expanded, now or later.
-  void AddLanes(const NodePair& pair, const FeatureNode& a, int i, const FeatureNode& b, int j);
+  void AddLanes(const NodePair& pair, const PlacedFeatureNode& a, int i, const PlacedFeatureNode& b,
+                int j);
   void AddItem(SumKind kind, int a, int b);
   void AddEdgeEdge(int a, int b);
   void AddFacet(const SumFacet& name);

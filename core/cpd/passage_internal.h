@@ -72,6 +72,7 @@ void VisitPassages(const MovedFace& of_sides, int first, int count, const MovedF
   for (int k = 0; k < 3; ++k) over[k] = face.Over(of_sides.corners[k]);
   for (int i = first; i < first + count; ++i) {
     const int k = i % 3, next = (k + 1) % 3;
+    if (outside == 0.0 && !(over[k] * over[next] < 0.0)) continue;
     const Segment side = {of_sides.corners[k], of_sides.corners[next], over[k], over[next]};
     const double margin = PassageMargin(side, face, outside);
     if (margin > kNoPassage) visit(k, margin);

@@ -32,24 +32,27 @@ inline constexpr int kFeatureTreeWidth = 8;
 // A cone that bounds nothing has cosine -2. Along any normal in contact a feature is higher than
 // the centre by something within `flat` of `lift`: what is left of its extent, as faces and edges
 // lie across their normals.
-struct alignas(64) FeatureNode {
-  double centre[3][kFeatureTreeWidth];
-  double radius[kFeatureTreeWidth];
-  double lift[kFeatureTreeWidth], flat[kFeatureTreeWidth];
-  double axis[3][kFeatureTreeWidth];
-  double cosine[kFeatureTreeWidth], sine[kFeatureTreeWidth];
-  double pole[3][kFeatureTreeWidth], belt[kFeatureTreeWidth];
+template <class Scalar>
+struct alignas(64) FeatureNodeOf {
+  Scalar centre[3][kFeatureTreeWidth];
+  Scalar radius[kFeatureTreeWidth];
+  Scalar lift[kFeatureTreeWidth], flat[kFeatureTreeWidth];
+  Scalar axis[3][kFeatureTreeWidth];
+  Scalar cosine[kFeatureTreeWidth], sine[kFeatureTreeWidth];
+  Scalar pole[3][kFeatureTreeWidth], belt[kFeatureTreeWidth];
   std::int32_t children[kFeatureTreeWidth];
   int lane_count;
   std::int32_t parent, parent_lane;  // the lane round this node; -1 at the root
 };
+using FeatureNode = FeatureNodeOf<double>;       // in the body's frame
+using PlacedFeatureNode = FeatureNodeOf<float>;  // with room for what is rounded
 
 // A node, or one lane of it, to go against the nodes of a deeper tree. Its code is the node's
 // number, or ~(width node + lane).
 struct FeatureLanes {
-  const FeatureNode* node;
-  int lane = -1;                        // all
-  const FeatureNode* parent = nullptr;  // of a node as a whole, but for the root
+  const PlacedFeatureNode* node;
+  int lane = -1;                              // all
+  const PlacedFeatureNode* parent = nullptr;  // of a node as a whole, but for the root
 
   // The code of what is under a lane: a node, or an item, whose lane goes on alone.
   static int Next(int child, int code, int lane) {
@@ -85,7 +88,7 @@ FeatureTree ConvexEdgeTree(const TriangleMesh& mesh, const GaussMap& map);
 // A feature tree placed in another frame: x to scale (R x + t), node by node as they are asked for.
 // Storage is used again, and nodes stay where they are as long as they are to. Bounds are padded,
 // so that they hold of any place where points are within `distance` and normals within `angle` of
-// where they are.
+// where they are. They are singles, for coordinates of the size of one (MeshPair's, below 2).
 class PlacedFeatureTree {
  public:
   void Place(const FeatureTree& tree, const Eigen::Matrix3d& rotation,
@@ -93,13 +96,13 @@ class PlacedFeatureTree {
              double angle = 0.0);
 
   bool empty() const { return tree_.nodes().empty(); }
-  const FeatureNode& node(int i) {
+  const PlacedFeatureNode& node(int i) {
     if (stamps_[i] != stamp_) PlaceNode(i);
     return nodes_[i];
   }
   FeatureLanes lanes(int code) {
     if (code >= 0) {
-      const FeatureNode& all = node(code);
+      const PlacedFeatureNode& all = node(code);
       return {&all, -1, all.parent < 0 ? nullptr : &node(all.parent)};
     }
     return {&node(~code / kFeatureTreeWidth), ~code % kFeatureTreeWidth};
@@ -114,7 +117,7 @@ class PlacedFeatureTree {
   double scale_ = 1.0, distance_ = 0.0, angle_ = 0.0, cosine_ = 1.0, sine_ = 0.0;
   std::uint32_t stamp_ = 0;
   std::vector<std::uint32_t> stamps_;
-  std::vector<FeatureNode> nodes_;
+  std::vector<PlacedFeatureNode> nodes_;
 };
 
 // Which facets are asked for: those that come within `reach` of a point, with it on the inner side
@@ -131,7 +134,7 @@ void MeetingFeatures(const FeatureLanes& a, const FeatureLanes& b, const Feature
                      std::uint8_t masks[kFeatureTreeWidth]);
 
 // No more than the distance from the origin of any sum of lane i of A and lane j of B.
-double NearestSum(const FeatureNode& a, int i, const FeatureNode& b, int j);
+double NearestSum(const PlacedFeatureNode& a, int i, const PlacedFeatureNode& b, int j);
 
 }  // namespace touchstone
 

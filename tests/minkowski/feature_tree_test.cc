@@ -186,6 +186,37 @@ TEST(FeatureTree, PassesOverNoFacetWhosePlaneIsNear) {
   EXPECT_GT(counts.facets, 10000);
 }
 
+// Edges that are all but parallel, whose plane passes a hair beyond the origin: what two belts
+// leave of the normals is told by the rounding of their poles' cross product, unless there is room
+// for it.
+TEST(FeatureTree, PassesOverNoFacetOfEdgesThatAreAllButParallel) {
+  Counts counts;
+  testing::Random random(8);
+  for (const char* name : {"box", "key", "slot", "cone", "torus", "star"}) {
+    const ContactBody a(MustBuild(NamedShape(name, 40))), b(MustBuild(NamedShape(name, 36)));
+    SCOPED_TRACE(name);
+    for (int i = 0; i < 60; ++i) {
+      const double angle = std::pow(10.0, -random.Uniform(0.5, 5.0));
+      const Matrix3d rotation = Eigen::AngleAxisd(angle, random.Direction()).toRotationMatrix();
+      const Vector3d translation = random.Direction();
+      const MeshPair pair(a.mesh(), b.mesh(), *RelativePose::Make(rotation, translation));
+      auto facets = ConvolutionByBruteForce(pair, a.gauss_map(), b.gauss_map()).facets;
+      std::erase_if(facets, [&](const SumFacet& facet) {
+        return facet.kind != SumFacetKind::kEdgeEdge ||
+               !(PolygonOf(pair, facet).normal.norm() > 1e-9);
+      });
+      if (facets.empty()) continue;
+      const Polygon polygon =
+          PolygonOf(pair, facets[random.Int(0, static_cast<int>(facets.size()) - 1)]);
+      const double height = std::pow(10.0, -random.Int(5, 8));
+      const Vector3d shift = (polygon.Height() - height) * polygon.normal.normalized();
+      const RelativePose pose = *RelativePose::Make(rotation, translation + shift / pair.scale());
+      ExpectBounds(a, b, pose, 0.0, 0.0, pose, &counts);
+    }
+  }
+  EXPECT_GT(counts.facets, 10000);
+}
+
 TEST(FeatureTree, HasRoomForMotions) {
   Counts counts;
   testing::Random random(6);
