@@ -7,7 +7,8 @@
 // vectorises; operations and their order are the same in every clone (no contraction to fused
 // multiply-add), and so are the results, bit for bit.
 //
-// TOUCHSTONE_NO_AVX512 leaves the first out, to time what processors without it would do.
+// TOUCHSTONE_NO_AVX512 leaves the first out, to time what processors without it would do;
+// TOUCHSTONE_HAS_AVX512_CLONES tells that it is there.
 //
 // Left out where the loader's choice does not get along with the tool: sanitizers, other compilers.
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
@@ -16,6 +17,7 @@
 #define TOUCHSTONE_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define TOUCHSTONE_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#define TOUCHSTONE_HAS_AVX512_CLONES
 #endif
 #else
 #define TOUCHSTONE_VECTOR_CLONES

@@ -13,14 +13,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "touchstone/core/base/vector_clones.h"
 #include "touchstone/core/mesh/lanes_internal.h"
-
-// Where core/base/vector_clones.h makes them.
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&                           \
-    !defined(TOUCHSTONE_NO_AVX512)
-#define TOUCHSTONE_HAS_AVX512_CLONES
-#endif
 
 namespace touchstone::internal {
 namespace {
@@ -121,6 +115,16 @@ TOUCHSTONE_INLINE void FindRanges(const Points& directions, const Points& points
   }
 }
 
+// How much further coordinates are at some of the points than at others.
+TOUCHSTONE_INLINE void FindWays(const Reals& x, const Indices& from, const Indices& to,
+                                Reals* ways) {
+#ifdef __clang__  // has no shuffle by a variable
+  for (int i = 0; i < kTreeWidth; ++i) (*ways)[i] = x[to[i]] - x[from[i]];
+#else
+  *ways = __builtin_shuffle(x, to) - __builtin_shuffle(x, from);
+#endif
+}
+
 // Of the directions the one along which the triangles are farthest apart; nothing depends on it
 // being so.
 TOUCHSTONE_INLINE void FindDirection(const Points& points, const Sides& sides, double best[3]) {
@@ -128,12 +132,13 @@ TOUCHSTONE_INLINE void FindDirection(const Points& points, const Sides& sides, d
   std::memcpy(&x, points[0], sizeof x);
   std::memcpy(&y, points[1], sizeof y);
   std::memcpy(&z, points[2], sizeof z);
-  const Reals ux = __builtin_shuffle(x, sides.u_to) - __builtin_shuffle(x, sides.u_from),
-              uy = __builtin_shuffle(y, sides.u_to) - __builtin_shuffle(y, sides.u_from),
-              uz = __builtin_shuffle(z, sides.u_to) - __builtin_shuffle(z, sides.u_from),
-              vx = __builtin_shuffle(x, sides.v_to) - __builtin_shuffle(x, sides.v_from),
-              vy = __builtin_shuffle(y, sides.v_to) - __builtin_shuffle(y, sides.v_from),
-              vz = __builtin_shuffle(z, sides.v_to) - __builtin_shuffle(z, sides.v_from);
+  Reals ux, uy, uz, vx, vy, vz;
+  FindWays(x, sides.u_from, sides.u_to, &ux);
+  FindWays(y, sides.u_from, sides.u_to, &uy);
+  FindWays(z, sides.u_from, sides.u_to, &uz);
+  FindWays(x, sides.v_from, sides.v_to, &vx);
+  FindWays(y, sides.v_from, sides.v_to, &vy);
+  FindWays(z, sides.v_from, sides.v_to, &vz);
   const Reals across[3] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
   const Reals squares = across[0] * across[0] + across[1] * across[1] + across[2] * across[2];
   Points directions;

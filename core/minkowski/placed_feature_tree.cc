@@ -250,11 +250,16 @@ TOUCHSTONE_INLINE void CompareBelts(const PlacedFeatureNode& x, const LaneBound&
                        square * y.cosine,
                 under = error_c + square * lanes->most[i],
                 over = error_c - square * lanes->least[i];
-    const bool one_way = IsNegative(aw, of_a, rest, square) | IsNegative(bw, of_b, rest, square) |
-                         IsNegative(cw, under, rest, square) | IsNegative(-cw, over, rest, square);
-    const bool other_way =
-        IsNegative(-aw, of_a, rest, square) | IsNegative(-bw, of_b, rest, square) |
-        IsNegative(-cw, under, rest, square) | IsNegative(cw, over, rest, square);
+    const bool off_a = IsNegative(aw, of_a, rest, square),
+               off_b = IsNegative(bw, of_b, rest, square),
+               too_low = IsNegative(cw, under, rest, square),
+               too_high = IsNegative(-cw, over, rest, square);
+    const bool off_a_back = IsNegative(-aw, of_a, rest, square),
+               off_b_back = IsNegative(-bw, of_b, rest, square),
+               too_low_back = IsNegative(-cw, under, rest, square),
+               too_high_back = IsNegative(cw, over, rest, square);
+    const bool one_way = off_a | off_b | too_low | too_high,
+               other_way = off_a_back | off_b_back | too_low_back | too_high_back;
     lanes->meets[i] = ((rest > 0.0F) & one_way & other_way) ? 0 : lanes->meets[i];
   }
 }
