@@ -14,6 +14,7 @@
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/minkowski/boundary.h"
 #include "touchstone/core/proximity/penetration_depth.h"
+#include "touchstone/tests/cpd/depth_bodies.h"
 #include "touchstone/tests/testing/poses.h"
 #include "touchstone/tests/testing/random.h"
 #include "touchstone/tests/testing/shapes.h"
@@ -25,21 +26,8 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using touchstone::testing::PoseOf;
-
-struct Bodies {
-  TriangleMesh mesh_a, mesh_b;
-  ContactBody a, b;
-
-  Bodies(const Shape& shape_a, const Shape& shape_b)
-      : mesh_a(MustBuild(shape_a)), mesh_b(MustBuild(shape_b)), a(mesh_a), b(mesh_b) {}
-
-  MeshPair At(const RelativePose& pose) const { return MeshPair(mesh_a, mesh_b, pose); }
-  MeshDepthResult Depth(const RelativePose& pose, const MeshDepthOptions& options = {},
-                        MeshDepthCache* cache = nullptr) const {
-    return MeshPenetrationDepth(At(pose), a, b, options, cache);
-  }
-};
+using testing::DepthBodies;
+using testing::PoseOf;
 
 Shape ShapeOf(const testing::Mesh& mesh) {
   Shape out;
@@ -102,7 +90,7 @@ void ExpectSound(const MeshPair& pair, const MeshDepthResult& result) {
 }
 
 TEST(MeshPenetrationDepth, BoxInBox) {
-  const Bodies bodies(Box({0, 0, 0}, {4, 5, 6}), Box({0, 0, 0}, {1, 1, 1}));
+  const DepthBodies bodies(Box({0, 0, 0}, {4, 5, 6}), Box({0, 0, 0}, {1, 1, 1}));
   // From x in [1, 2] the way out through x = 0 is 1 + x.
   for (const double x : {0.5, 1.0, 1.25, -0.5}) {
     const RelativePose pose = PoseOf(Matrix3d::Identity(), {x, 2, 2.5});
@@ -115,7 +103,7 @@ TEST(MeshPenetrationDepth, BoxInBox) {
 }
 
 TEST(MeshPenetrationDepth, SeparateAndTouching) {
-  const Bodies bodies(Box({0, 0, 0}, {1, 1, 1}), Box({0, 0, 0}, {1, 1, 1}));
+  const DepthBodies bodies(Box({0, 0, 0}, {1, 1, 1}), Box({0, 0, 0}, {1, 1, 1}));
   for (const Vector3d& t :
        {Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(1, 1, 1), Vector3d(-1, 0.5, 0.5),
         Vector3d(3, 0, 0), Vector3d(0, 0, 1.0 + 1e-15)}) {
@@ -134,13 +122,13 @@ TEST(MeshPenetrationDepth, SeparateAndTouching) {
 
 TEST(MeshPenetrationDepth, PinInAUAndKeyInSlot) {
   // A pin of width w < 1 in the gap [1, 2] of the U, raised by z: into the wall by s.
-  const Bodies thin(UShape(), Box({0, 0, 0}, {0.5, 1, 4}));
+  const DepthBodies thin(UShape(), Box({0, 0, 0}, {0.5, 1, 4}));
   const MeshDepthResult wall = thin.Depth(PoseOf(Matrix3d::Identity(), {0.875, 0.25, 1.5}));
   EXPECT_NEAR(wall.upper_bound, 0.125, 1e-9);
   const MeshDepthResult floor = thin.Depth(PoseOf(Matrix3d::Identity(), {1.25, 0, 0.9375}));
   EXPECT_NEAR(floor.upper_bound, 0.0625, 1e-9);
   // The key fills its slot exactly: the way out is the sheet x = 0 of ∂M, with M° on both sides.
-  const Bodies exact(Slot(), Key());
+  const DepthBodies exact(Slot(), Key());
   const RelativePose pose = PoseOf(Matrix3d::Identity(), {2.25, 0.5, 1.0});
   const MeshDepthResult key = exact.Depth(pose);
   ExpectSound(exact.At(pose), key);
@@ -154,7 +142,7 @@ TEST(MeshPenetrationDepth, PinInAUAndKeyInSlot) {
 }
 
 TEST(MeshPenetrationDepth, ConfirmedExactly) {
-  const Bodies bodies(Torus(12, 8, 2.0, 0.75), Star(5));
+  const DepthBodies bodies(Torus(12, 8, 2.0, 0.75), Star(5));
   testing::Random random(11);
   int confirmed = 0;
   for (int i = 0; i < 10; ++i) {
@@ -193,7 +181,7 @@ TEST(MeshPenetrationDepth, EqualsTheWholeBoundary) {
   int certain = 0, overlapping = 0;
   int kinds[8] = {};
   for (const Pair& pair : pairs) {
-    const Bodies bodies(pair.a, pair.b);
+    const DepthBodies bodies(pair.a, pair.b);
     testing::Random random(2024);
     MeshDepthCache cache;
     for (int i = 0; i < 12; ++i) {
@@ -233,7 +221,7 @@ TEST(MeshPenetrationDepth, EqualsTheWholeBoundary) {
 // where a box all but fills a dent. At the first of these poses a facet was once taken for made
 // that had been left out for its group's distance.
 TEST(MeshPenetrationDepth, NothingIsLostBeyondTheFirstReach) {
-  const Bodies bodies(NamedShape("dimpled", 50), NamedShape("spiked", 100));
+  const DepthBodies bodies(NamedShape("dimpled", 50), NamedShape("spiked", 100));
   Matrix3d turned;
   turned << -0x1.ecd7047308a49p-2, 0x1.c0cca2adddb52p-1, -0x1.2b8a61f97cf35p-10,
       0x1.c0ccb450b0d5bp-1, 0x1.ecd71ecb29fb9p-2, 0x1.4e8b36bbff681p-14, 0x1.44fcc57ad8c57p-11,
@@ -258,7 +246,7 @@ TEST(MeshPenetrationDepth, NothingIsLostBeyondTheFirstReach) {
 
 // The bodies overlap by less than their boxes are rounded by, which seem to be apart.
 TEST(MeshPenetrationDepth, BoxesApartByTheirRounding) {
-  const Bodies bodies(NamedShape("spiked", 50), NamedShape("fish", 200));
+  const DepthBodies bodies(NamedShape("spiked", 50), NamedShape("fish", 200));
   Matrix3d turned;
   turned << -1, 0, 0, 0, 0, 1, 0, 1, 0;
   const Vector3d t(0x1.3333333333333p+0, -0x1.7333333333333p+1, -0.25);
@@ -274,7 +262,7 @@ TEST(MeshPenetrationDepth, ConvexPairsAsByTheConvexQuery) {
   for (int i = 0; i < 10; ++i) {
     const testing::Mesh p = testing::RoundBody(20, {1, 1, 1}, 10 + i);
     const testing::Mesh q = testing::RoundBody(30, {2, 1, 1}, 40 + i);
-    const Bodies bodies(ShapeOf(p), ShapeOf(q));
+    const DepthBodies bodies(ShapeOf(p), ShapeOf(q));
     const RelativePose pose = PoseOf(random.Rotation(), 0.8 * random.Direction());
     const MeshDepthResult result = bodies.Depth(pose);
     const auto convex = PenetrationDepth(testing::MustBuild(p), testing::MustBuild(q), pose);
@@ -286,7 +274,7 @@ TEST(MeshPenetrationDepth, ConvexPairsAsByTheConvexQuery) {
 // A round body in a wide slab of height 2: out by the nearer side, whichever way it is turned.
 TEST(MeshPenetrationDepth, RoundBodyInASlab) {
   const testing::Mesh round = testing::RoundBody(60, {0.8, 0.8, 0.8}, 3);
-  const Bodies bodies(Box({-20, -20, -1}, {20, 20, 1}), ShapeOf(round));
+  const DepthBodies bodies(Box({-20, -20, -1}, {20, 20, 1}), ShapeOf(round));
   testing::Random random(61);
   for (int i = 0; i < 8; ++i) {
     const Matrix3d r = random.Rotation();
@@ -304,7 +292,7 @@ TEST(MeshPenetrationDepth, RoundBodyInASlab) {
 
 // Two linked rings whose tubes meet: they part along the line between the tubes, or nearly so.
 TEST(MeshPenetrationDepth, LinkedRings) {
-  const Bodies bodies(Torus(12, 8, 2.0, 0.5), Torus(12, 8, 2.0, 0.5));
+  const DepthBodies bodies(Torus(12, 8, 2.0, 0.5), Torus(12, 8, 2.0, 0.5));
   const Matrix3d upright =
       Eigen::AngleAxisd(1.5707963267948966, Vector3d::UnitX()).toRotationMatrix();
   for (const double overlap : {0.02, 0.1, 0.3}) {
@@ -323,7 +311,7 @@ TEST(MeshPenetrationDepth, LinkedRings) {
 
 // A box in the cavity of a hollow one is free; in its wall it is not.
 TEST(MeshPenetrationDepth, InACavityAndAroundIt) {
-  const Bodies bodies(HollowBox(), Box({-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25}));
+  const DepthBodies bodies(HollowBox(), Box({-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25}));
   const Vector3d cavity(2, 1.78125, 1.5625);
   EXPECT_EQ(bodies.Depth(PoseOf(Matrix3d::Identity(), cavity)).status, MeshDepthStatus::kSeparate);
   double deepest = 0.0;
@@ -340,7 +328,7 @@ TEST(MeshPenetrationDepth, InACavityAndAroundIt) {
 // Six ways out of the same length, and eight: any of them, the same one every time, warm or cold.
 TEST(MeshPenetrationDepth, SymmetricTies) {
   const Shape cube = Box({-1, -1, -1}, {1, 1, 1});
-  const Bodies cubes(cube, Box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
+  const DepthBodies cubes(cube, Box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
   MeshDepthCache cache;
   const MeshDepthResult first = cubes.Depth(PoseOf(Matrix3d::Identity()), {}, &cache);
   EXPECT_EQ(first.status, MeshDepthStatus::kCertain);
@@ -350,7 +338,7 @@ TEST(MeshPenetrationDepth, SymmetricTies) {
     const MeshDepthResult again = cubes.Depth(PoseOf(Matrix3d::Identity()), {}, &cache);
     EXPECT_NEAR(again.upper_bound, 1.5, 1e-11);
   }
-  const Bodies stars(Star(8), Star(8));
+  const DepthBodies stars(Star(8), Star(8));
   const RelativePose half =
       PoseOf(Eigen::AngleAxisd(0.39269908169872414, Vector3d::UnitZ()).toRotationMatrix());
   const MeshDepthResult star = stars.Depth(half);
@@ -368,70 +356,16 @@ TEST(MeshPenetrationDepth, UnchangedByARigidMotionOfBoth) {
     const Vector3d t = 1.7 * random.Direction(), shift = 3.0 * random.Direction();
     Shape moved = torus;
     for (Vector3d& v : moved.vertices) v = turn * v + shift;
-    const double depth = Bodies(torus, star).Depth(PoseOf(r, t)).upper_bound;
-    const double other = Bodies(moved, star).Depth(PoseOf(turn * r, turn * t + shift)).upper_bound;
+    const double depth = DepthBodies(torus, star).Depth(PoseOf(r, t)).upper_bound;
+    const double other =
+        DepthBodies(moved, star).Depth(PoseOf(turn * r, turn * t + shift)).upper_bound;
     EXPECT_NEAR(depth, other, 1e-8);
   }
 }
 
-// A list of features in the way, made along a slow motion, must hold all that later frames meet.
-TEST(MeshPenetrationDepth, ListsOfSlowMotionsMissNothing) {
-  const Bodies bodies(Torus(12, 8, 2.0, 0.75), Fish(9, 6));
-  for (const double step : {0.0005, 0.002, 0.005}) {
-    MeshDepthCache cache;
-    int by_list = 0;
-    for (int i = 0; i < 40; ++i) {
-      const Matrix3d r =
-          Eigen::AngleAxisd(step * i, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-      const RelativePose pose = PoseOf(r, {1.6, 0.3 + 0.4 * step * i, 0.1});
-      const MeshDepthResult warm = bodies.Depth(pose, {}, &cache);
-      by_list += warm.node_pairs == 0;
-      EXPECT_NEAR(warm.upper_bound, bodies.Depth(pose).upper_bound, 1e-8) << step << ' ' << i;
-    }
-    EXPECT_GT(by_list, 25);
-  }
-}
-
-// A motion that goes on is met by lists made ahead of it; one that turns back, halts, or shakes is
-// not where they were made for. Another pair in between leaves one half made.
-TEST(MeshPenetrationDepth, ListsMadeAheadMissNothing) {
-  const std::uint64_t seed = 29;
-  SCOPED_TRACE(seed);
-  testing::Random random(seed);
-  const Bodies others(Axes(4), Cone(40, 1.5, 4.0));
-  const char* const kNames[] = {"torus", "fish", "star", "spiked", "cup", "key"};
-  int by_list = 0, in_parts = 0;
-  for (int round = 0; round < 12; ++round) {
-    const Bodies bodies(NamedShape(kNames[random.Int(0, 5)], 120),
-                        NamedShape(kNames[random.Int(0, 5)], 90));
-    MeshDepthCache cache;
-    const Vector3d axis = random.Direction(), way = random.Direction();
-    const Matrix3d from = random.Rotation();
-    const Vector3d start = 0.3 * random.Direction();
-    const double step = 0.0004 * (1 << random.Int(0, 3));
-    double at = 0.0, pace = step;
-    for (int i = 0; i < 80; ++i) {
-      if (i % 20 == 19) pace = step * random.Int(-2, 2);
-      at += pace;
-      const bool shakes = round % 3 == 2 && i % 5 == 4;
-      const Vector3d shake = shakes ? Vector3d(2.0 * step * random.Direction()) : Vector3d::Zero();
-      const Matrix3d turn = Eigen::AngleAxisd(at, axis).toRotationMatrix();
-      const RelativePose pose = PoseOf(turn * from, start + at * way + shake);
-      if (round % 4 == 3 && i % 16 == 15) others.Depth(pose, {}, &cache);
-      const MeshDepthResult warm = bodies.Depth(pose, {}, &cache), cold = bodies.Depth(pose);
-      by_list += warm.node_pairs == 0;
-      in_parts += warm.node_pairs > 0 && 2 * warm.node_pairs < cold.node_pairs;
-      EXPECT_NEAR(warm.upper_bound, cold.upper_bound, 1e-8) << round << ' ' << i;
-      EXPECT_NEAR(warm.lower_bound, cold.lower_bound, 1e-8) << round << ' ' << i;
-    }
-  }
-  EXPECT_GT(by_list, 500) << in_parts;
-  EXPECT_GT(in_parts, 60) << by_list;
-}
-
 TEST(MeshPenetrationDepth, Invariances) {
-  const Bodies bodies(Torus(12, 8, 2.0, 0.75), Fish(9, 6));
-  const Bodies swapped(Fish(9, 6), Torus(12, 8, 2.0, 0.75));
+  const DepthBodies bodies(Torus(12, 8, 2.0, 0.75), Fish(9, 6));
+  const DepthBodies swapped(Fish(9, 6), Torus(12, 8, 2.0, 0.75));
   testing::Random random(17);
   for (int i = 0; i < 10; ++i) {
     const Matrix3d r = random.Rotation();
@@ -451,11 +385,11 @@ TEST(MeshPenetrationDepth, FarScalesAndNoise) {
   testing::Random random(3);
   const Matrix3d r = random.Rotation();
   const Vector3d t(1.5, 0.25, 0.125);
-  const double depth = Bodies(torus, star).Depth(PoseOf(r, t)).upper_bound;
+  const double depth = DepthBodies(torus, star).Depth(PoseOf(r, t)).upper_bound;
   ASSERT_GT(depth, 0.05);
   for (const double scale : {0x1p-330, 0x1p-40, 0x1p40, 0x1p320}) {
-    const Bodies scaled(Moved(torus, scale, Vector3d::Zero()),
-                        Moved(star, scale, Vector3d::Zero()));
+    const DepthBodies scaled(Moved(torus, scale, Vector3d::Zero()),
+                             Moved(star, scale, Vector3d::Zero()));
     EXPECT_EQ(scaled.Depth(PoseOf(r, scale * t)).upper_bound, scale * depth) << scale;
   }
   for (int i = 0; i < 5; ++i) {
@@ -463,27 +397,13 @@ TEST(MeshPenetrationDepth, FarScalesAndNoise) {
     for (Vector3d& v : noisy.vertices) {
       for (int k = 0; k < 3; ++k) v[k] += random.Uniform(-1e-15, 1e-15);
     }
-    EXPECT_NEAR(Bodies(noisy, star).Depth(PoseOf(r, t)).upper_bound, depth, 1e-8);
-  }
-}
-
-TEST(MeshPenetrationDepth, PoisonedCacheChangesNoAnswer) {
-  const Bodies bodies(Torus(12, 8, 2.0, 0.75), Star(5));
-  const Bodies others(Axes(4), Cone(40, 1.5, 4.0));
-  testing::Random random(23);
-  MeshDepthCache cache;
-  for (int i = 0; i < 10; ++i) {
-    others.Depth(PoseOf(random.Rotation(), random.Direction()), {}, &cache);
-    const RelativePose pose = PoseOf(random.Rotation(), 1.8 * random.Direction());
-    const MeshDepthResult cold = bodies.Depth(pose);
-    const MeshDepthResult poisoned = bodies.Depth(pose, {}, &cache);
-    EXPECT_NEAR(cold.upper_bound, poisoned.upper_bound, 1e-8);
+    EXPECT_NEAR(DepthBodies(noisy, star).Depth(PoseOf(r, t)).upper_bound, depth, 1e-8);
   }
 }
 
 // Rates by central differences, where the contacts are the same on both sides.
 TEST(MeshPenetrationDepth, RatesAreDerivatives) {
-  const Bodies bodies(Torus(12, 8, 2.0, 0.75), Fish(9, 6));
+  const DepthBodies bodies(Torus(12, 8, 2.0, 0.75), Fish(9, 6));
   testing::Random random(29);
   constexpr double kH = 1e-5;
   int compared = 0;
@@ -510,7 +430,7 @@ TEST(MeshPenetrationDepth, RatesAreDerivatives) {
 }
 
 TEST(MeshPenetrationDepth, LimitKeepsBounds) {
-  const Bodies bodies(Torus(12, 8, 2.0, 0.75), Star(5));
+  const DepthBodies bodies(Torus(12, 8, 2.0, 0.75), Star(5));
   const RelativePose pose = PoseOf(testing::Random(3).Rotation(), {1.5, 0.25, 0.125});
   const double depth = bodies.Depth(pose).upper_bound;
   const MeshDepthResult cut = bodies.Depth(pose, {.piece_limit = 1});
@@ -520,7 +440,7 @@ TEST(MeshPenetrationDepth, LimitKeepsBounds) {
 
 TEST(MeshPenetrationDepth, PaperScenesAreCertain) {
   for (const PaperScene& scene : AllPaperScenes()) {
-    const Bodies bodies(scene.a, scene.b);
+    const DepthBodies bodies(scene.a, scene.b);
     MeshDepthCache cache;
     for (int i = 0; i < 5; ++i) {
       const MeshPair pair = bodies.At(scene.PoseAt(0.1 + 0.2 * i));

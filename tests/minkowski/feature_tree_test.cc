@@ -156,6 +156,15 @@ TEST(FeatureTree, PassesOverNoFacet) {
   EXPECT_GT(counts.parted, 500);
 }
 
+// The pose with B moved so that the plane of a facet passes a hair beyond the origin.
+RelativePose WherePlanePassesOrigin(const MeshPair& pair, const Polygon& polygon,
+                                    testing::Random* random) {
+  const double height = std::pow(10.0, -random->Int(5, 8));
+  const Vector3d shift = (polygon.Height() - height) * polygon.normal.normalized();
+  return *RelativePose::Make(pair.pose().rotation(),
+                             pair.pose().translation() + shift / pair.scale());
+}
+
 // Planes that pass a hair beyond the origin, of facets far aside, and rotations that are as far off
 // orthonormal as they may be.
 TEST(FeatureTree, PassesOverNoFacetWhosePlaneIsNear) {
@@ -176,9 +185,7 @@ TEST(FeatureTree, PassesOverNoFacetWhosePlaneIsNear) {
         const int last = static_cast<int>(facets.size()) - 1;
         const Polygon polygon = PolygonOf(pair, facets[random.Int(0, last)]);
         if (!(polygon.normal.norm() > 1e-6)) continue;
-        const double height = std::pow(10.0, -random.Int(5, 8));
-        const Vector3d shift = (polygon.Height() - height) * polygon.normal.normalized();
-        const RelativePose pose = *RelativePose::Make(rotation, translation + shift / pair.scale());
+        const RelativePose pose = WherePlanePassesOrigin(pair, polygon, &random);
         ExpectBounds(a, b, pose, 0.0, 0.0, pose, &counts);
       }
     }
@@ -208,9 +215,7 @@ TEST(FeatureTree, PassesOverNoFacetOfEdgesThatAreAllButParallel) {
       if (facets.empty()) continue;
       const Polygon polygon =
           PolygonOf(pair, facets[random.Int(0, static_cast<int>(facets.size()) - 1)]);
-      const double height = std::pow(10.0, -random.Int(5, 8));
-      const Vector3d shift = (polygon.Height() - height) * polygon.normal.normalized();
-      const RelativePose pose = *RelativePose::Make(rotation, translation + shift / pair.scale());
+      const RelativePose pose = WherePlanePassesOrigin(pair, polygon, &random);
       ExpectBounds(a, b, pose, 0.0, 0.0, pose, &counts);
     }
   }
