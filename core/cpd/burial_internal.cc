@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "touchstone/core/base/vector_clones.h"
@@ -156,45 +157,66 @@ int PrismList::FindDeepest(const Vector3d& x) const {
   return last - (last - best) % kWindow;
 }
 
-void BallList::Add(const BurialBall& ball) {
-  largest_ = std::max(largest_, ball.radius);
-  if (balls_.size() < kCapacity) {
-    balls_.push_back(ball);
-    return;
-  }
-  next_ = (next_ + 1) % kCapacity;
-  balls_[next_] = ball;
+void BallList::Clear() {
+  blocks_.clear();
+  added_ = 0;
+  largest_ = 0.0;
 }
 
-bool BallList::Holds(const Vector3d& centre, double radius) const {
-  if (radius >= largest_) return false;
-  for (const BurialBall& ball : balls_) {
-    const double rest = ball.radius - radius;
-    if (rest > 0.0 && (centre - ball.centre).squaredNorm() < rest * rest) return true;
+void BallList::Add(const BurialBall& ball) {
+  largest_ = std::max(largest_, ball.radius);
+  const int slot = added_++ % kCapacity, lane = slot % kWidth;
+  if (slot / kWidth >= static_cast<int>(blocks_.size())) {
+    blocks_.emplace_back();
+    for (auto& axis : blocks_.back().centre) std::fill(axis, axis + kWidth, 0.0);
+    std::fill_n(blocks_.back().radius, kWidth, -1.0);
   }
-  return false;
+  Block& block = blocks_[slot / kWidth];
+  for (int axis = 0; axis < 3; ++axis) block.centre[axis][lane] = ball.centre[axis];
+  block.radius[lane] = ball.radius;
+}
+
+TOUCHSTONE_VECTOR_CLONES
+std::uint64_t BallList::Holding(std::span<const Block> blocks, const Vector3d& x, double margin) {
+  std::uint64_t all = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Block& block = blocks[b];
+    std::int64_t holds[kWidth];
+    for (int i = 0; i < kWidth; ++i) holds[i] = std::int64_t{1} << i;
+    for (int i = 0; i < kWidth; ++i) {
+      const double dx = x[0] - block.centre[0][i], dy = x[1] - block.centre[1][i],
+                   dz = x[2] - block.centre[2][i], rest = block.radius[i] - margin;
+      holds[i] = ((rest > 0.0) & (dx * dx + dy * dy + dz * dz < rest * rest)) ? holds[i] : 0;
+    }
+    std::int64_t mask = 0;
+    for (int i = 0; i < kWidth; ++i) mask |= holds[i];
+    all |= static_cast<std::uint64_t>(mask) << (kWidth * b);
+  }
+  return all;
 }
 
 bool BallList::Holds(std::span<const Vector3d> points, double margin) const {
-  for (const BurialBall& ball : balls_) {
-    const double rest = ball.radius - margin;
-    if (!(rest > 0.0)) continue;
-    if (std::all_of(points.begin(), points.end(), [&](const Vector3d& x) {
-          return (x - ball.centre).squaredNorm() < rest * rest;
-        })) {
-      return true;
-    }
+  std::uint64_t holding = ~std::uint64_t{0};
+  for (const Vector3d& x : points) {
+    holding &= Holding(blocks_, x, margin);
+    if (holding == 0) return false;
   }
-  return false;
+  return true;
 }
 
-const BurialBall* BallList::Find(const Vector3d& x, double least) const {
-  const BurialBall* best = nullptr;
-  for (const BurialBall& ball : balls_) {
-    const double squared = (x - ball.centre).squaredNorm();
-    if (!(squared < ball.radius * ball.radius)) continue;
-    const double depth = ball.radius - std::sqrt(squared);
-    if (depth > least) least = depth, best = &ball;
+BurialBall BallList::ball(int i) const {
+  const Block& block = blocks_[i / kWidth];
+  const int lane = i % kWidth;
+  return {{block.centre[0][lane], block.centre[1][lane], block.centre[2][lane]},
+          block.radius[lane]};
+}
+
+std::optional<BurialBall> BallList::Find(const Vector3d& x, double least) const {
+  std::optional<BurialBall> best;
+  for (std::uint64_t rest = Holding(blocks_, x, least); rest != 0; rest &= rest - 1) {
+    const BurialBall met = ball(std::countr_zero(rest));
+    const double depth = met.radius - (x - met.centre).norm();
+    if (depth > least) least = depth, best = met;
   }
   return best;
 }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -74,27 +75,33 @@ class PrismList {
   std::vector<Block> blocks_;
 };
 
-// Balls met so far, the latest kCapacity of them.
+// Balls met so far, the latest kCapacity of them, searched eight at a time.
 class BallList {
  public:
-  void Clear() {
-    balls_.clear();
-    largest_ = 0.0;
-  }
+  void Clear();
   void Add(const BurialBall& ball);
   // Whether one ball holds all points within `radius` of `centre`; no ball does unless MayHold.
   bool MayHold(double radius) const { return radius < largest_; }
-  bool Holds(const Eigen::Vector3d& centre, double radius) const;
+  bool Holds(const Eigen::Vector3d& centre, double radius) const {
+    return MayHold(radius) && Holding(blocks_, centre, radius) != 0;
+  }
   // Whether one ball holds all the points, each with `margin` to spare.
   bool Holds(std::span<const Eigen::Vector3d> points, double margin) const;
-  // The ball that holds x deepest, if deeper than `least`; else null.
-  const BurialBall* Find(const Eigen::Vector3d& x, double least) const;
-  std::span<const BurialBall> balls() const { return balls_; }
+  // The ball that holds x deepest, if deeper than `least`.
+  std::optional<BurialBall> Find(const Eigen::Vector3d& x, double least) const;
 
  private:
-  static constexpr std::size_t kCapacity = 48;
-  std::vector<BurialBall> balls_;
-  std::size_t next_ = 0;
+  static constexpr int kWidth = 8, kCapacity = 48;
+  struct alignas(64) Block {
+    double centre[3][kWidth], radius[kWidth];
+  };
+  // Bit i: ball i holds all points within `margin` of x.
+  static std::uint64_t Holding(std::span<const Block> blocks, const Eigen::Vector3d& x,
+                               double margin);
+  BurialBall ball(int i) const;
+
+  std::vector<Block> blocks_;
+  int added_ = 0;
   double largest_ = 0.0;  // radius of those added
 };
 

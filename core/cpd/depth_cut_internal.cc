@@ -50,8 +50,8 @@ using Eigen::Vector3d;
 
 bool DepthSearcher::CutByKnown(const FacetPiece& piece, const Vector3d& x) {
   const double least = 4.0 * SlackOf(piece);
-  const BurialBall* ball = s_.balls.Find(x, least);
-  const bool is_deep = ball != nullptr && ball->radius - (x - ball->centre).norm() > kDeepInBall;
+  const std::optional<BurialBall> ball = s_.balls.Find(x, least);
+  const bool is_deep = ball && ball->radius - (x - ball->centre).norm() > kDeepInBall;
   if (is_deep && CutByBall(piece, *ball)) return true;
   const int prism = s_.prisms.FindDeepest(x);
   if (prism >= 0) {
@@ -59,7 +59,7 @@ bool DepthSearcher::CutByKnown(const FacetPiece& piece, const Vector3d& x) {
     const int deep = holds_x ? prism : WalkFrom(prism, x, least);
     if (deep >= 0 && CutByPrism(piece, deep)) return true;
   }
-  return ball != nullptr && !is_deep && CutByBall(piece, *ball);
+  return ball && !is_deep && CutByBall(piece, *ball);
 }
 
 bool DepthSearcher::CutByPrism(const FacetPiece& piece, int number) {

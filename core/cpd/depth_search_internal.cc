@@ -55,7 +55,7 @@ bool DepthSearcher::IsOverlapRecalled() const {
   const Vector3d origin = Vector3d::Zero();
   const int prism = s_.prisms.FindDeepest(origin);
   return (prism >= 0 && s_.prisms.prism(prism).Margin(origin) > 0.0) ||
-         s_.balls.Find(origin, 0.0) != nullptr;
+         s_.balls.Find(origin, 0.0).has_value();
 }
 
 bool DepthSearcher::IsSeparate() {
