@@ -16,6 +16,9 @@ constexpr double kGrowth = 1.2;          // of the radius within which facets ar
 constexpr std::size_t kRememberedPrisms = 128;
 constexpr std::size_t kRememberedBalls = 16;
 
+// Of two pieces in the queue, whether the first is the further one.
+constexpr auto kIsFurther = [](const auto& p, const auto& q) { return p.first > q.first; };
+
 }  // namespace
 
 using Eigen::Vector3d;
@@ -107,7 +110,7 @@ bool DepthSearcher::Push(const FacetPiece& piece) {
     s_.pieces[slot] = piece;
   }
   s_.heap.emplace_back(near, slot);
-  std::push_heap(s_.heap.begin(), s_.heap.end(), std::greater<>());
+  std::push_heap(s_.heap.begin(), s_.heap.end(), kIsFurther);
   return true;
 }
 
@@ -133,7 +136,7 @@ void DepthSearcher::Explore() {
       return;
     }
     ++result_.pieces;
-    std::pop_heap(s_.heap.begin(), s_.heap.end(), std::greater<>());
+    std::pop_heap(s_.heap.begin(), s_.heap.end(), kIsFurther);
     const int slot = s_.heap.back().second;
     s_.heap.pop_back();
     const FacetPiece piece = s_.pieces[slot];
