@@ -143,18 +143,16 @@ void PrismList::LargestMargins(std::span<const Block> blocks, const Vector3d& x,
   std::copy(of_most, of_most + kWidth, numbers);
 }
 
-int PrismList::FindDeepest(const Vector3d& x) const {
-  double margins[kWidth], most = -1e299;
+PrismList::Deepest PrismList::FindDeepest(const Vector3d& x) const {
+  double margins[kWidth];
   std::int64_t numbers[kWidth];
   LargestMargins(blocks_, x, margins, numbers);
-  int best = -1;
-  for (int i = 0; i < kWidth; ++i) {
-    if (margins[i] > most) most = margins[i], best = static_cast<int>(numbers[i]) * kWidth + i;
-  }
-  if (best < 0) return -1;
+  int lane = 0;
+  for (int i = 1; i < kWidth; ++i) lane = margins[i] > margins[lane] ? i : lane;
+  if (!(margins[lane] > -1e299)) return {};
   // Slot to the latest number in it.
-  const int last = size() - 1;
-  return last - (last - best) % kWindow;
+  const int slot = static_cast<int>(numbers[lane]) * kWidth + lane, last = size() - 1;
+  return {last - (last - slot) % kWindow, margins[lane]};
 }
 
 void BallList::Clear() {
@@ -177,15 +175,16 @@ void BallList::Add(const BurialBall& ball) {
 }
 
 TOUCHSTONE_VECTOR_CLONES
-std::uint64_t BallList::Holding(std::span<const Block> blocks, const Vector3d& x, double margin) {
+std::uint64_t BallList::Holding(std::span<const Block> blocks, const Vector3d& centre,
+                                double radius) {
   std::uint64_t all = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block& block = blocks[b];
     std::int64_t holds[kWidth];
     for (int i = 0; i < kWidth; ++i) holds[i] = std::int64_t{1} << i;
     for (int i = 0; i < kWidth; ++i) {
-      const double dx = x[0] - block.centre[0][i], dy = x[1] - block.centre[1][i],
-                   dz = x[2] - block.centre[2][i], rest = block.radius[i] - margin;
+      const double dx = centre[0] - block.centre[0][i], dy = centre[1] - block.centre[1][i],
+                   dz = centre[2] - block.centre[2][i], rest = block.radius[i] - radius;
       holds[i] = ((rest > 0.0) & (dx * dx + dy * dy + dz * dz < rest * rest)) ? holds[i] : 0;
     }
     std::int64_t mask = 0;
@@ -193,15 +192,6 @@ std::uint64_t BallList::Holding(std::span<const Block> blocks, const Vector3d& x
     all |= static_cast<std::uint64_t>(mask) << (kWidth * b);
   }
   return all;
-}
-
-bool BallList::Holds(std::span<const Vector3d> points, double margin) const {
-  std::uint64_t holding = ~std::uint64_t{0};
-  for (const Vector3d& x : points) {
-    holding &= Holding(blocks_, x, margin);
-    if (holding == 0) return false;
-  }
-  return true;
 }
 
 BurialBall BallList::ball(int i) const {
@@ -213,7 +203,7 @@ BurialBall BallList::ball(int i) const {
 
 std::optional<BurialBall> BallList::Find(const Vector3d& x, double least) const {
   std::optional<BurialBall> best;
-  for (std::uint64_t rest = Holding(blocks_, x, least); rest != 0; rest &= rest - 1) {
+  for (std::uint64_t rest = Holding(x, least); rest != 0; rest &= rest - 1) {
     const BurialBall met = ball(std::countr_zero(rest));
     const double depth = met.radius - (x - met.centre).norm();
     if (depth > least) least = depth, best = met;

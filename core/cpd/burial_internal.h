@@ -58,8 +58,12 @@ class PrismList {
   int Add(const Prism& prism);  // its number
   const Prism& prism(int i) const { return prisms_[i]; }
   int size() const { return static_cast<int>(prisms_.size()); }
-  // The prism that holds x deepest, or comes nearest to it; -1 if there is none.
-  int FindDeepest(const Eigen::Vector3d& x) const;
+  // The prism that holds x deepest, or comes nearest to it, and x's margin; -1 if there is none.
+  struct Deepest {
+    int number = -1;
+    double margin = -1e299;
+  };
+  Deepest FindDeepest(const Eigen::Vector3d& x) const;
 
  private:
   static constexpr int kWidth = 8, kWindow = 512;
@@ -83,10 +87,12 @@ class BallList {
   // Whether one ball holds all points within `radius` of `centre`; no ball does unless MayHold.
   bool MayHold(double radius) const { return radius < largest_; }
   bool Holds(const Eigen::Vector3d& centre, double radius) const {
-    return MayHold(radius) && Holding(blocks_, centre, radius) != 0;
+    return MayHold(radius) && Holding(centre, radius) != 0;
   }
-  // Whether one ball holds all the points, each with `margin` to spare.
-  bool Holds(std::span<const Eigen::Vector3d> points, double margin) const;
+  // The balls that do, a bit each.
+  std::uint64_t Holding(const Eigen::Vector3d& centre, double radius) const {
+    return Holding(blocks_, centre, radius);
+  }
   // The ball that holds x deepest, if deeper than `least`.
   std::optional<BurialBall> Find(const Eigen::Vector3d& x, double least) const;
 
@@ -95,9 +101,8 @@ class BallList {
   struct alignas(64) Block {
     double centre[3][kWidth], radius[kWidth];
   };
-  // Bit i: ball i holds all points within `margin` of x.
-  static std::uint64_t Holding(std::span<const Block> blocks, const Eigen::Vector3d& x,
-                               double margin);
+  static std::uint64_t Holding(std::span<const Block> blocks, const Eigen::Vector3d& centre,
+                               double radius);
   BurialBall ball(int i) const;
 
   std::vector<Block> blocks_;

@@ -53,10 +53,9 @@ bool DepthSearcher::CutByKnown(const FacetPiece& piece, const Vector3d& x) {
   const std::optional<BurialBall> ball = s_.balls.Find(x, least);
   const bool is_deep = ball && ball->radius - (x - ball->centre).norm() > kDeepInBall;
   if (is_deep && CutByBall(piece, *ball)) return true;
-  const int prism = s_.prisms.FindDeepest(x);
-  if (prism >= 0) {
-    const bool holds_x = s_.prisms.prism(prism).Margin(x) > least;
-    const int deep = holds_x ? prism : WalkFrom(prism, x, least);
+  const PrismList::Deepest known = s_.prisms.FindDeepest(x);
+  if (known.number >= 0) {
+    const int deep = known.margin > least ? known.number : WalkFrom(known.number, x, least);
     if (deep >= 0 && CutByPrism(piece, deep)) return true;
   }
   return ball && !is_deep && CutByBall(piece, *ball);

@@ -56,9 +56,7 @@ void DepthSearcher::Reset() {
 
 bool DepthSearcher::IsOverlapRecalled() const {
   const Vector3d origin = Vector3d::Zero();
-  const int prism = s_.prisms.FindDeepest(origin);
-  return (prism >= 0 && s_.prisms.prism(prism).Margin(origin) > 0.0) ||
-         s_.balls.Find(origin, 0.0).has_value();
+  return s_.prisms.FindDeepest(origin).margin > 0.0 || s_.balls.Holds(origin, 0.0);
 }
 
 bool DepthSearcher::IsSeparate() {
@@ -91,10 +89,13 @@ void DepthSearcher::Take(const Vector3d& at, const std::optional<ContactName>& n
 }
 
 bool DepthSearcher::IsBuried(const FacetFrame& frame, const FacetPiece& piece) const {
-  if (!s_.balls.MayHold(SlackOf(piece))) return false;
-  Vector3d corners[kMaxPieceCorners];
-  for (int i = 0; i < piece.count; ++i) corners[i] = frame.At(piece.at[i]);
-  return s_.balls.Holds(std::span<const Vector3d>(corners, piece.count), SlackOf(piece));
+  const double slack = SlackOf(piece);
+  if (!s_.balls.MayHold(slack)) return false;
+  std::uint64_t holding = ~std::uint64_t{0};
+  for (int i = 0; i < piece.count && holding != 0; ++i) {
+    holding &= s_.balls.Holding(frame.At(piece.at[i]), slack);
+  }
+  return holding != 0;
 }
 
 bool DepthSearcher::Push(const FacetPiece& piece) {
