@@ -15,12 +15,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Measured on the paper's scenes: 3 to 8 looks and depths and distances from 2^-12 to 2^-5 do as
-// well.
-constexpr int kMostLooks = 6;
-constexpr double kDeepEnough = 0x1p-9;  // of x in a prism that ends the walk
-constexpr double kNextTo = 0x1p-8;      // of x to a prism that the walk may go through first
-constexpr std::size_t kMostCorners = 32;
+// When a walk ends: after so many looks, or at a prism that x is so deep in. Measured on the paper's
+// scenes.
+struct WalkLimits {
+  int looks;
+  double depth;
+};
+constexpr WalkLimits kShortWalk = {6, 0x1p-9};
+// Many pieces are many slivers in one place, which deeper prisms bury sooner.
+constexpr int kManyPieces = 600;
+constexpr WalkLimits kLongWalk = {24, 0x1p-7};
+
+constexpr double kNextTo = 0x1p-8;  // of x to a prism that the walk may go through first
+constexpr std::size_t kMostCorners = 128;
 
 struct Corner {
   PrismName name;
@@ -102,7 +109,8 @@ int DepthSearcher::WalkFrom(int number, const Vector3d& x, double least) {
   Corners corners({start.name, start.Margin(x)});
   PrismName best = start.name;
   double deepest = least;
-  for (int look = 0; look < kMostLooks && deepest < kDeepEnough; ++look) {
+  const WalkLimits& limits = result_.pieces > kManyPieces ? kLongWalk : kShortWalk;
+  for (int look = 0; look < limits.looks && deepest < limits.depth; ++look) {
     const Corner* corner = corners.Take();
     if (corner == nullptr) break;
     // Next to the start x may be on the wall of all that there is, just outside of what goes on.
