@@ -6,6 +6,7 @@
 // membership.
 #include <Eigen/Core>
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 
 #include "touchstone/core/cpd/depth_searcher_internal.h"
 #include "touchstone/core/cpd/passage_internal.h"
@@ -75,31 +76,30 @@ void VisitNext(const MeshPair& pair, const Corner& corner, const Vector3d& x, do
   }
 }
 
-// Corners met, the deepest of them first.
+// Corners met.
 class Corners {
  public:
-  explicit Corners(const Corner& first) { corners_[count_++] = first; }
+  explicit Corners(const Corner& first) { corners_.push_back(first); }
 
   bool Has(const PrismName& name) const {
-    return std::any_of(corners_, corners_ + count_,
+    return std::any_of(corners_.begin(), corners_.end(),
                        [&](const Corner& c) { return c.name == name; });
   }
   void Add(const Corner& corner) {
-    if (count_ < kMostCorners) corners_[count_++] = corner;
+    if (corners_.size() < kMostCorners) corners_.push_back(corner);
   }
   // The deepest one that has not been taken; nothing if none is left.
   const Corner* Take() {
     Corner* best = nullptr;
-    for (Corner* c = corners_; c != corners_ + count_; ++c) {
-      if (!c->is_done && (best == nullptr || c->margin > best->margin)) best = c;
+    for (Corner& c : corners_) {
+      if (!c.is_done && (best == nullptr || c.margin > best->margin)) best = &c;
     }
     if (best != nullptr) best->is_done = true;
     return best;
   }
 
  private:
-  Corner corners_[kMostCorners];
-  std::size_t count_ = 0;
+  boost::container::static_vector<Corner, kMostCorners> corners_;
 };
 
 }  // namespace
