@@ -2,6 +2,7 @@
 #include "touchstone/core/cpd/phong_projection.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +30,12 @@ constexpr double kOnSide = 1e-9;
 constexpr double kConverged = 1e-13;
 // Solutions nearer to each other than this in λ are one.
 constexpr double kSame = 1e-7;
-// |det J| over the product of its columns' lengths, below which a solution counts as multiple.
+// And two nearer than this, where F bends from one to the other, are a double one: less than
+// FindZeros tells apart, more than Newton leaves of a residual of kConverged where J vanishes.
+constexpr double kTogether = 0x1p-20;
+// Of J's singular values, the less over the larger: above, nothing of the kind is near.
+constexpr double kRegular = 1e-4;
+// Below, J vanishes up to roundings.
 constexpr double kSingular = 1e-9;
 
 Basis BasisAcross(const Vector3d& normal) {
@@ -143,7 +149,8 @@ class Projection {
     Linearised here;
     if (!Newton(&at, &here)) return;
     for (std::size_t i = begin_; i < points_->size(); ++i) {
-      if (((*points_)[i].at - at).norm() < kSame) return;
+      const PhongPoint& point = (*points_)[i];
+      if ((point.at - at).norm() < (point.multiplicity == 2 ? kTogether : kSame)) return;
     }
     Add(at, here);
   }
@@ -276,8 +283,8 @@ class Projection {
   void Add(const Vector3d& at, const Linearised& here) {
     if (at.minCoeff() < -kOnSide || !(face_normal_.dot(here.position) > 0.0)) return;
     PhongPoint point = PointAt(at, here.basis);
-    const double columns = here.jacobian.col(0).norm() * here.jacobian.col(1).norm();
-    if (std::abs(here.jacobian.determinant()) > kSingular * columns) {
+    point.multiplicity = MultiplicityAt(at, here.jacobian);
+    if (point.multiplicity == 1) {
       // F(λ, o) = Ψ(λ)(q(λ) - o): dλ = J^-1 Ψ do.
       Eigen::Matrix<double, 3, 2> sides;
       sides.col(0) = corners_.col(0) - corners_.col(2);
@@ -287,10 +294,23 @@ class Projection {
       const Vector3d normal = here.basis.row(0).transpose().cross(here.basis.row(1).transpose());
       point.index =
           (here.jacobian.determinant() > 0.0) == (normal.dot(here.position) > 0.0) ? 1 : -1;
-    } else {
-      point.multiplicity = 0;
     }
     points_->push_back(point);
+  }
+
+  // Where J is all but singular, J r = σ l, the zeros beside λ are those of l·F along r (Lyapunov
+  // and Schmidt): of σ s + s² l·F''(r, r) / 2.
+  int MultiplicityAt(const Vector3d& at, const Matrix2d& jacobian) const {
+    if (std::abs(jacobian.determinant()) > kRegular * jacobian.squaredNorm()) return 1;
+    const Eigen::JacobiSVD<Matrix2d> svd(jacobian, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const double largest = svd.singularValues()[0], sigma = svd.singularValues()[1];
+    const Vector2d l = svd.matrixU().col(1), r = svd.matrixV().col(1);
+    constexpr double kStep = 0x1p-12;
+    const Vector3d step = kStep * Vector3d(r[0], r[1], -r[0] - r[1]);
+    const Matrix2d change = At(at + step).jacobian - At(at - step).jacobian;
+    const double bend = std::abs(l.dot(change * r)) / (2.0 * kStep);
+    if (bend > kSingular * largest) return 2.0 * sigma < kTogether * bend ? 2 : 1;
+    return sigma > kSingular * largest ? 1 : 0;
   }
 
   const int triangle_;

@@ -70,11 +70,10 @@ struct PhongPoint {
   // |Ψ(λ) q| / |q| for a basis of two orthonormal rows: the sine of the angle between q and the
   // normal.
   double residual = 0.0;
-  // The rate of q with a motion of the origin, 3 x 3; nothing at a multiple solution, where the
-  // Jacobian vanishes.
+  // The rate of q with a motion of the origin, 3 x 3; of a simple solution.
   std::optional<Eigen::Matrix3d> rate;
-  // 1: simple. 0: not told. It is at a corner, where Ψ has no derivative; or solutions meet, or
-  // come nearer to each other than some 2^-19 of the triangle. Newton alone tells by the Jacobian.
+  // 1: simple. 2: two meet there, up to 2^-20 of the triangle, which are told as one. 0: not told:
+  // more meet, or it is at a corner, where Ψ has no derivative.
   int multiplicity = 1;
   // Of a simple one, the sense of the map from the origin to q, along the plane: 1 where it is
   // kept, as by the foot on a plane, -1 where it is turned over. Two that meet and vanish have

@@ -311,6 +311,74 @@ TEST(PhongSearch, SolutionsThatMeet) {
   EXPECT_EQ(untold, folds);
 }
 
+// The origin moved to where two are one, up to roundings: then it is told to be a double one.
+TEST(PhongSearch, SolutionsThatMeetAreDouble) {
+  testing::Random random(37);
+  int folds = 0, doubles = 0;
+  for (int i = 0; i < 20000 && folds < 40; ++i) {
+    const Seen seen = RandomSeen(&random, 1.0, 0.5);
+    const Vector3d along = 0.3 * random.Direction();
+    const auto points_at = [&](double s) {
+      Seen moved = seen;
+      for (Vector3d& v : moved.vertices) v += s * along;
+      bool is_complete = false;
+      return moved.All(PhongInterpolation::kTangentBasis, &is_complete);
+    };
+    double low = 0.0, high = 1.0;
+    if (points_at(low).size() != 2 || !points_at(high).empty()) continue;
+    std::vector<PhongPoint> last;
+    while (high - low > 1e-15) {
+      const double middle = 0.5 * (low + high);
+      const auto points = points_at(middle);
+      if (!points.empty()) last = points;
+      (points.empty() ? high : low) = middle;
+    }
+    // Solutions that leave by a side, or as the triangle turns inward, are simple.
+    if (last.empty() || last[0].at.minCoeff() < 1e-6) continue;
+    const Vector3d up = (seen.vertices[1] - seen.vertices[0])
+                            .cross(seen.vertices[2] - seen.vertices[0])
+                            .normalized();
+    if (std::abs(up.dot(last[0].position)) < 1e-12) continue;
+    ++folds;
+    ASSERT_EQ(last.size(), 1u) << i;
+    doubles += last[0].multiplicity == 2;
+    EXPECT_FALSE(last[0].rate) << i;
+    EXPECT_EQ(last[0].index, 0) << i;
+    EXPECT_LT(last[0].residual, 1e-12) << i;
+  }
+  EXPECT_GT(folds, 10);
+  EXPECT_EQ(doubles, folds);
+}
+
+// Two that are a hundred times further apart than that are simple, of opposite index.
+TEST(PhongSearch, SolutionsThatAreAboutToMeetAreSimple) {
+  testing::Random random(41);
+  int pairs = 0;
+  for (int i = 0; i < 20000 && pairs < 20; ++i) {
+    const Seen seen = RandomSeen(&random, 1.0, 0.5);
+    const Vector3d along = 0.3 * random.Direction();
+    double low = 0.0, high = 1.0;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = k == 0 ? 0.0 : 0.5 * (low + high);
+      Seen moved = seen;
+      for (Vector3d& v : moved.vertices) v += middle * along;
+      bool is_complete = false;
+      const auto points = moved.All(PhongInterpolation::kTangentBasis, &is_complete);
+      if (points.size() != 2 && k == 0) break;
+      (points.empty() ? high : low) = middle;
+      if (points.size() != 2) continue;
+      const double apart = (points[0].at - points[1].at).norm();
+      EXPECT_EQ(points[0].multiplicity, 1) << i << ' ' << apart;
+      EXPECT_EQ(points[1].multiplicity, 1) << i << ' ' << apart;
+      if (apart > 1e-3) continue;
+      EXPECT_EQ(points[0].index * points[1].index, -1) << i << ' ' << apart;
+      ++pairs;
+      if (apart < 1e-4) break;
+    }
+  }
+  EXPECT_GE(pairs, 20);
+}
+
 // At a corner Ψ has a value and no derivative: the solution is there, and nothing else is.
 TEST(PhongSearch, SolutionsAtCorners) {
   testing::Random random(29);
