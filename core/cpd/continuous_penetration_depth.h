@@ -20,6 +20,7 @@
 
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/cpd/phong_projection.h"
+#include "touchstone/core/cpd/vertex_normals.h"
 #include "touchstone/core/mesh/triangle_mesh.h"
 #include "touchstone/core/minkowski/local_sum.h"
 

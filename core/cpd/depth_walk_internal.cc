@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// When a walk ends: after so many looks, or at a prism that x is so deep in. Measured on the paper's
-// scenes.
+// When a walk ends: after so many looks, or at a prism that x is so deep in. Measured on the
+// paper's scenes.
 struct WalkLimits {
   int looks;
   double depth;

@@ -16,6 +16,7 @@
 #include "touchstone/core/cpd/contact_signs_internal.h"
 #include "touchstone/core/cpd/phong_projection.h"
 #include "touchstone/core/cpd/placed_facet_internal.h"
+#include "touchstone/core/cpd/vertex_normals.h"
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/minkowski/local_sum.h"
 

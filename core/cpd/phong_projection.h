@@ -4,8 +4,7 @@
 //   ∂M               PhongSurface      a triangulated surface with normals at its vertices
 //   q_1, q_2, q_3    vertices          of a triangle
 //   λ                PhongPoint::at    barycentric coordinates
-//   T                                  a basis of the tangent plane at a vertex, two rows
-//   Ψ(λ)             TangentBasis      the interpolated one
+//   Ψ(λ)             TangentBasis      the interpolated tangent plane (tangent_basis.h)
 //   o                the origin
 #ifndef TOUCHSTONE_CORE_CPD_PHONG_PROJECTION_H_
 #define TOUCHSTONE_CORE_CPD_PHONG_PROJECTION_H_
@@ -17,6 +16,8 @@
 #include <span>
 #include <vector>
 
+#include "touchstone/core/cpd/tangent_basis.h"
+
 namespace touchstone {
 
 // A view of a surface: triangles counterclockwise seen from outside.
@@ -26,30 +27,6 @@ struct PhongSurface {
   // neighbors[t][k] across the side from corner k to k + 1; -1: none.
   std::span<const std::array<int, 3>> neighbors;
   std::span<const Eigen::Vector3d> normals;  // of vertices, of unit length
-};
-
-enum class NormalWeights : std::uint8_t { kAngle, kArea, kUniform };
-
-// The mean of the normals of a vertex's triangles, by these weights; of unit length, or zero where
-// they cancel. Where the area of a triangle is below what roundings of its corners make, these tell
-// no normal: it counts by `triangle_normals`, if they are given, and uniformly not at all.
-// Complexity: O(n).
-std::vector<Eigen::Vector3d> VertexNormals(std::span<const Eigen::Vector3d> vertices,
-                                           std::span<const std::array<int, 3>> triangles,
-                                           NormalWeights weights = NormalWeights::kAngle,
-                                           std::span<const Eigen::Vector3d> triangle_normals = {});
-// Into storage that is used again.
-void VertexNormals(std::span<const Eigen::Vector3d> vertices,
-                   std::span<const std::array<int, 3>> triangles, NormalWeights weights,
-                   std::span<const Eigen::Vector3d> triangle_normals,
-                   std::vector<Eigen::Vector3d>* normals);
-
-// How the surface's normals are made continuous between vertices.
-enum class PhongInterpolation : std::uint8_t {
-  kTangentBasis,  // bases of tangent planes, aligned along each side and blended
-  // The normals themselves: the paper's Figure 2a. Vanishes where normals at the ends of a side are
-  // opposite, and finds points there that no tangent plane makes.
-  kNormals,
 };
 
 struct PhongOptions {
@@ -87,30 +64,6 @@ struct PhongCount {
   // Ψ as its rows at corners are in doubles, and bounds all roundings from there on. Where it fails
   // (solutions that meet, or a curve of them) other starts of Newton's are tried too.
   bool is_complete = false;
-};
-
-// The interpolated tangent plane of one triangle.
-//
-// Bases at the ends of a side are turned in their planes until they agree best (reflections
-// allowed: a plane has no sign), and blended linearly: that is the side's basis, the same seen from
-// either triangle. Inside, the three sides' bases, turned to agree with the first corner's, are
-// blended with weights λ_i λ_j, which on a side leave its own. (Panozzo, Baran, Diamanti,
-// Sorkine-Hornung, "Weighted averages on surfaces", 2013; the paper omits the recipe.)
-class TangentBasis {
- public:
-  TangentBasis(const std::array<Eigen::Vector3d, 3>& normals, PhongInterpolation interpolation);
-
-  using Basis = Eigen::Matrix<double, 2, 3>;
-  // Ψ(λ), up to a positive factor, and its derivatives with each λ_i.
-  Basis At(const Eigen::Vector3d& at, std::array<Basis, 3>* derivatives) const;
-  // The basis that corner k + end has on side k, from corner k to k + 1. None with kNormals.
-  const Basis& OnSide(int k, int end) const { return sides_[k][end]; }
-  const Eigen::Vector3d& NormalAt(int corner) const { return normals_[corner]; }
-
- private:
-  bool by_normals_;
-  std::array<Eigen::Vector3d, 3> normals_;
-  std::array<std::array<Basis, 2>, 3> sides_;
 };
 
 // Appends the Phong projections of the origin onto one triangle. Complexity: O(1). No errors;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "touchstone/core/cpd/vertex_normals.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include "touchstone/core/cpd/phong_projection.h"
 
 namespace touchstone {
 

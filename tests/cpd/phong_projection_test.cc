@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "touchstone/core/cpd/vertex_normals.h"
 #include "touchstone/tests/testing/random.h"
 
 namespace touchstone {
