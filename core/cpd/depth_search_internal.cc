@@ -13,7 +13,7 @@ namespace {
 constexpr double kClosed = 4.0 * kStep;  // bounds that differ by steps alone
 constexpr int kCrumbLimit = 32;          // then too much is left open to go on
 constexpr double kGrowth = 1.2;          // of the radius within which facets are made
-constexpr std::size_t kRememberedPrisms = 128;
+constexpr std::size_t kRememberedPrisms = 256;
 constexpr std::size_t kRememberedBalls = 16;
 
 // Of two pieces in the queue, whether the first is the further one.

@@ -30,6 +30,8 @@ constexpr int kShrinkLimit = 24;
 constexpr double kMostRadius = 2.0;
 // Of a face's ball over that of the one before, to begin with.
 constexpr double kGuess = 1.25;
+// Of the cosine between a face's normal and the way from a ball's centre to its middle.
+constexpr double kSameWay = 0.9;
 
 // A nearest point is looked for no closer than this: round the middle of a tube all of a ring is
 // equally near, and need not be gone through. (Of the paper's tori, 2000 faces, a quarter is.)
@@ -83,11 +85,7 @@ class BallFinder {
   // In the placed mesh's frame. The radius begins at a guess, and is doubled until something is in
   // the ball.
   InnerBall BallOf(int face, double guess) const {
-    const Triangle& corners = placed_.mesh.face(face);
-    const Vector3d middle =
-        (placed_.points[corners[0]] + placed_.points[corners[1]] + placed_.points[corners[2]]) /
-        3.0;
-    const Vector3d inward = -placed_.planes[face].normal.normalized();
+    const Vector3d middle = MiddleOf(face), inward = InwardOf(face);
     double radius = guess;
     bool has_met = false;
     for (int i = 0; i < kShrinkLimit; ++i) {
@@ -113,6 +111,14 @@ class BallFinder {
           height > 0.0 ? std::min(0.5 * to.squaredNorm() / height, 0.99 * radius) : 0.5 * radius;
     }
     return {};
+  }
+
+  // Whether a ball comes as near to a face's middle as its own would.
+  bool IsAsGood(const InnerBall& ball, int face) const {
+    const Vector3d way = ball.centre - MiddleOf(face);
+    const double length = way.norm();
+    return ball.radius > 0.0 && length * kNearEnough * kNearEnough < ball.radius &&
+           way.dot(InwardOf(face)) > kSameWay * length;
   }
 
   // The distance of some point of the surface, or `most` and none: no point is nearer than `enough`
@@ -159,6 +165,13 @@ class BallFinder {
   }
 
  private:
+  Vector3d MiddleOf(int face) const {
+    const Triangle& corners = placed_.mesh.face(face);
+    return (placed_.points[corners[0]] + placed_.points[corners[1]] + placed_.points[corners[2]]) /
+           3.0;
+  }
+  Vector3d InwardOf(int face) const { return -placed_.planes[face].normal.normalized(); }
+
   const PlacedMesh& placed_;
 };
 
@@ -181,10 +194,18 @@ std::vector<InnerBall> InnerBalls(const TriangleMesh& mesh) {
   std::vector<InnerBall> balls(mesh.face_count());
   double guess = kMostRadius;
   for (int f = 0; f < mesh.face_count(); ++f) {
+    // Round a tube, and in a cone's slivers, one ball does for many.
+    for (const int h : {3 * f, 3 * f + 1, 3 * f + 2}) {
+      const int beside = TriangleMesh::face_of(mesh.twin(h));
+      if (beside < f && finder.IsAsGood(balls[beside], f)) balls[f] = balls[beside];
+    }
+    if (balls[f].radius > 0.0) continue;
     balls[f] = finder.BallOf(f, guess);
     if (balls[f].radius > 0.0) guess = std::min(kGuess * balls[f].radius, kMostRadius);
-    balls[f].centre /= pair.scale();
-    balls[f].radius /= pair.scale();
+  }
+  for (InnerBall& ball : balls) {
+    ball.centre /= pair.scale();
+    ball.radius /= pair.scale();
   }
   return balls;
 }
