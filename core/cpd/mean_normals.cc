@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "touchstone/core/cpd/nearest_on_triangle_internal.h"
+#include "touchstone/core/mesh/nearest_on_triangle_internal.h"
 
 namespace touchstone {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "touchstone/core/cpd/contact_name_internal.h"
 #include "touchstone/core/cpd/depth_search_internal.h"
-#include "touchstone/core/cpd/nearest_on_triangle_internal.h"
 #include "touchstone/core/mesh/membership.h"
+#include "touchstone/core/mesh/nearest_on_triangle_internal.h"
 #include "touchstone/core/minkowski/local_sum.h"
 
 namespace touchstone {

@@ -10,6 +10,7 @@
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/base/vector_clones.h"
 #include "touchstone/core/mesh/mesh_pair.h"
+#include "touchstone/core/mesh/nearest_on_triangle_internal.h"
 #include "touchstone/core/mesh/point_in_mesh_internal.h"
 
 namespace touchstone {
@@ -36,26 +37,6 @@ constexpr double kSameWay = 0.9;
 // A nearest point is looked for no closer than this: round the middle of a tube all of a ring is
 // equally near, and need not be gone through. (Of the paper's tori, 2000 faces, a quarter is.)
 constexpr double kNearEnough = 1.0 - 0x1p-6;
-
-Vector3d NearestOnSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const Vector3d ab = b - a;
-  const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-  return a + t * ab;
-}
-
-Vector3d NearestOnTriangle(const Vector3d& p, const Vector3d& a, const Vector3d& b,
-                           const Vector3d& c) {
-  const Vector3d normal = (b - a).cross(c - a);
-  const bool is_over = normal.dot((b - a).cross(p - a)) > 0.0 &&
-                       normal.dot((c - b).cross(p - b)) > 0.0 &&
-                       normal.dot((a - c).cross(p - c)) > 0.0;
-  if (is_over) return p - normal * (normal.dot(p - a) / normal.squaredNorm());
-  const Vector3d feet[] = {NearestOnSegment(p, a, b), NearestOnSegment(p, b, c),
-                           NearestOnSegment(p, c, a)};
-  return *std::min_element(std::begin(feet), std::end(feet), [&](const auto& x, const auto& y) {
-    return (x - p).squaredNorm() < (y - p).squaredNorm();
-  });
-}
 
 // Of the lanes' boxes from p.
 TOUCHSTONE_VECTOR_CLONES
@@ -139,8 +120,8 @@ class BallFinder {
         const Triangle& corners = placed_.mesh.face(~child);
         const Vector3d& corner = placed_.points[corners[0]];
         if (IsPlaneBeyond(placed_.planes[~child], p - corner, least)) continue;
-        const Vector3d at =
-            NearestOnTriangle(p, corner, placed_.points[corners[1]], placed_.points[corners[2]]);
+        const Vector3d at = internal::NearestOnTriangle(p, corner, placed_.points[corners[1]],
+                                                        placed_.points[corners[2]]);
         const double distance = (at - p).squaredNorm();
         if (distance >= least) continue;
         found = std::sqrt(distance);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef TOUCHSTONE_CORE_CPD_NEAREST_ON_TRIANGLE_INTERNAL_H_
-#define TOUCHSTONE_CORE_CPD_NEAREST_ON_TRIANGLE_INTERNAL_H_
+#ifndef TOUCHSTONE_CORE_MESH_NEAREST_ON_TRIANGLE_INTERNAL_H_
+#define TOUCHSTONE_CORE_MESH_NEAREST_ON_TRIANGLE_INTERNAL_H_
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -38,4 +38,4 @@ inline Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& p, const Eigen::
 
 }  // namespace touchstone::internal
 
-#endif  // TOUCHSTONE_CORE_CPD_NEAREST_ON_TRIANGLE_INTERNAL_H_
+#endif  // TOUCHSTONE_CORE_MESH_NEAREST_ON_TRIANGLE_INTERNAL_H_
