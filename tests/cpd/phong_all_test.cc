@@ -24,6 +24,12 @@ struct Seen {
 
   PhongSurface View() const { return {vertices, triangles, neighbors, normals}; }
 
+  Seen MovedBy(const Vector3d& way) const {
+    Seen moved = *this;
+    for (Vector3d& v : moved.vertices) v += way;
+    return moved;
+  }
+
   std::vector<PhongPoint> All(PhongInterpolation interpolation, bool* is_complete) const {
     std::vector<PhongPoint> points;
     const PhongCount count =
@@ -116,19 +122,18 @@ TEST(PhongAll, SolutionsThatMeet) {
     const Seen seen = RandomSeen(&random, 1.0, 0.5);
     const Vector3d along = 0.3 * random.Direction();
     const auto count = [&](double s, bool* is_complete) {
-      Seen moved = seen;
-      for (Vector3d& v : moved.vertices) v += s * along;
-      return static_cast<int>(moved.All(PhongInterpolation::kTangentBasis, is_complete).size());
+      return std::ssize(
+          seen.MovedBy(s * along).All(PhongInterpolation::kTangentBasis, is_complete));
     };
     bool is_complete = false;
     double low = 0.0, high = 1.0;
-    const int before = count(low, &is_complete), after = count(high, &is_complete);
+    const auto before = count(low, &is_complete), after = count(high, &is_complete);
     if (before != 2 || after != 0) continue;
     // Solutions that leave by a side go one at a time.
     bool is_fold = true, was_untold = false;
     while (is_fold && high - low > 1e-15) {
       const double middle = 0.5 * (low + high);
-      const int here = count(middle, &is_complete);
+      const auto here = count(middle, &is_complete);
       if (!is_complete) {
         was_untold = true;
         EXPECT_LT(high - low, 1e-5) << i;
@@ -152,10 +157,8 @@ TEST(PhongAll, SolutionsThatMeetAreDouble) {
     const Seen seen = RandomSeen(&random, 1.0, 0.5);
     const Vector3d along = 0.3 * random.Direction();
     const auto points_at = [&](double s) {
-      Seen moved = seen;
-      for (Vector3d& v : moved.vertices) v += s * along;
       bool is_complete = false;
-      return moved.All(PhongInterpolation::kTangentBasis, &is_complete);
+      return seen.MovedBy(s * along).All(PhongInterpolation::kTangentBasis, &is_complete);
     };
     double low = 0.0, high = 1.0;
     if (points_at(low).size() != 2 || !points_at(high).empty()) continue;
@@ -193,10 +196,9 @@ TEST(PhongAll, SolutionsThatAreAboutToMeetAreSimple) {
     double low = 0.0, high = 1.0;
     for (int k = 0; k < 60; ++k) {
       const double middle = k == 0 ? 0.0 : 0.5 * (low + high);
-      Seen moved = seen;
-      for (Vector3d& v : moved.vertices) v += middle * along;
       bool is_complete = false;
-      const auto points = moved.All(PhongInterpolation::kTangentBasis, &is_complete);
+      const auto points =
+          seen.MovedBy(middle * along).All(PhongInterpolation::kTangentBasis, &is_complete);
       if (points.size() != 2 && k == 0) break;
       (points.empty() ? high : low) = middle;
       if (points.size() != 2) continue;

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <limits>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "touchstone/tests/testing/shapes.h"
 
@@ -186,6 +188,28 @@ std::vector<Placement> RoundPlacements(std::uint64_t seed, int count) {
     const double away = random.Uniform(0.0, 4.0);
     placements.push_back({"round " + std::to_string(seed) + "/" + std::to_string(i), std::move(p),
                           std::move(q), MustPose(random.Rotation(), away * random.Direction())});
+  }
+  return placements;
+}
+
+std::vector<Placement> ExtremePlacements(std::uint64_t seed, int low, int high) {
+  const ConvexPolyhedron unit = MustBuild(Box({1, 1, 1}));
+  const ConvexPolyhedron huge = MustBuild(Box({1e100, 1e100, 1e100}));
+  const ConvexPolyhedron tiny = MustBuild(Box({1e-100, 1e-100, 1e-100}));
+  const ConvexPolyhedron needle = MustBuild(Box({1e6, 1, 1e-6}));
+  const ConvexPolyhedron blade = MustBuild(RoundBody(40, {1e6, 1, 1e-3}, 5));
+  const std::pair<ConvexPolyhedron, ConvexPolyhedron> pairs[] = {
+      {unit, huge}, {unit, tiny}, {huge, tiny}, {needle, needle}, {needle, blade}, {blade, blade}};
+  Random random(seed);
+  std::vector<Placement> placements;
+  for (const auto& [p, q] : pairs) {
+    for (int i = 0; i < 40; ++i) {
+      const double reach = std::max(p.diameter_bound(), q.diameter_bound());
+      const double away = reach * std::ldexp(1.0, -random.Int(low, high));
+      placements.push_back(
+          {"extreme " + std::to_string(i), p, q,
+           MustPose(random.Rotation(), std::min(away, 1e99) * random.Direction())});
+    }
   }
   return placements;
 }

@@ -45,6 +45,10 @@ Placement Scaled(const Placement& x, double power_of_two);
 // Round bodies of 20 to 60 vertices at any rotation, from deep in each other to far apart.
 std::vector<Placement> RoundPlacements(std::uint64_t seed, int count);
 
+// Bodies of very different sizes, and thin as needles, at any rotation; apart by the size over a
+// random power of two from `low` to `high`: 240 of them.
+std::vector<Placement> ExtremePlacements(std::uint64_t seed, int low, int high);
+
 }  // namespace touchstone::testing
 
 #endif  // TOUCHSTONE_TESTS_PROXIMITY_BRUTE_FORCE_H_

@@ -221,33 +221,21 @@ TEST(DirectionalDistance, FloatIsNeverWrong) {
 }
 
 TEST(DirectionalDistance, ExtremesOfScale) {
-  const ConvexPolyhedron unit = MustBuild(Box({1, 1, 1}));
-  const ConvexPolyhedron huge = MustBuild(Box({1e100, 1e100, 1e100}));
-  const ConvexPolyhedron tiny = MustBuild(Box({1e-100, 1e-100, 1e-100}));
-  const ConvexPolyhedron needle = MustBuild(Box({1e6, 1, 1e-6}));
-  const ConvexPolyhedron blade = MustBuild(RoundBody(40, {1e6, 1, 1e-3}, 5));
-  const std::vector<std::pair<ConvexPolyhedron, ConvexPolyhedron>> pairs = {
-      {unit, huge}, {unit, tiny}, {huge, tiny}, {needle, needle}, {needle, blade}, {blade, blade}};
   Random random(81);
-  int intervals = 0;
-  for (const auto& [p, q] : pairs) {
-    for (int i = 0; i < 40; ++i) {
-      const double reach = std::max(p.diameter_bound(), q.diameter_bound());
-      const double away = reach * std::ldexp(1.0, -random.Int(0, 40));
-      const Placement x{"extreme " + std::to_string(i), p, q,
-                        MustPose(random.Rotation(), std::min(away, 1e99) * random.Direction())};
-      Eigen::Vector3d s = random.Direction();
-      if (i % 4 == 1) s *= 1e-100 * 1.01;
-      if (i % 4 == 2) s *= 1e99;
-      if (i % 4 == 3) s = {1.0, 1e-200, -1e-320};
-      const DirectionalResult result = Ask(x, s);
-      ExpectSound(x, result);
-      ASSERT_NE(result.kind, TravelKind::kUndecided);
-      if (result.kind != TravelKind::kInterval) continue;
-      ++intervals;
-      const bool meets = result.enter.travel.value <= 0.0 && result.leave.travel.value >= 0.0;
-      EXPECT_EQ(meets, Collide(p, q, x.pose).verdict != Verdict::kSeparate);
-    }
+  int i = 0, intervals = 0;
+  for (const Placement& x : ExtremePlacements(/*seed=*/82, 0, 40)) {
+    Eigen::Vector3d s = random.Direction();
+    if (i % 4 == 1) s *= 1e-100 * 1.01;
+    if (i % 4 == 2) s *= 1e99;
+    if (i % 4 == 3) s = {1.0, 1e-200, -1e-320};
+    ++i;
+    const DirectionalResult result = Ask(x, s);
+    ExpectSound(x, result);
+    ASSERT_NE(result.kind, TravelKind::kUndecided);
+    if (result.kind != TravelKind::kInterval) continue;
+    ++intervals;
+    const bool meets = result.enter.travel.value <= 0.0 && result.leave.travel.value >= 0.0;
+    EXPECT_EQ(meets, Collide(x.p, x.q, x.pose).verdict != Verdict::kSeparate);
   }
   EXPECT_GT(intervals, 60);
 }

@@ -137,29 +137,14 @@ TEST(Distance, ScalesToTheBit) {
 
 // Bodies of very different sizes, far from the origin, thin as a needle.
 TEST(Distance, ExtremesOfScale) {
-  const ConvexPolyhedron unit = MustBuild(Box({1, 1, 1}));
-  const ConvexPolyhedron huge = MustBuild(Box({1e100, 1e100, 1e100}));
-  const ConvexPolyhedron tiny = MustBuild(Box({1e-100, 1e-100, 1e-100}));
-  const ConvexPolyhedron needle = MustBuild(Box({1e6, 1, 1e-6}));
-  const ConvexPolyhedron flat_needle = MustBuild(Placed(RoundBody(40, {1e6, 1, 1e-3}, 5), 1.0));
-  const std::vector<std::pair<ConvexPolyhedron, ConvexPolyhedron>> pairs = {
-      {unit, huge},     {unit, tiny},          {huge, tiny},
-      {needle, needle}, {needle, flat_needle}, {flat_needle, flat_needle}};
-  Random random(15);
   int separate = 0;
-  for (const auto& [p, q] : pairs) {
-    for (int i = 0; i < 40; ++i) {
-      const double reach = std::max(p.diameter_bound(), q.diameter_bound());
-      const double away = reach * std::ldexp(1.0, -random.Int(-2, 20));
-      const Placement x{"extreme " + std::to_string(i), p, q,
-                        MustPose(random.Rotation(), std::min(away, 1e99) * random.Direction())};
-      const DistanceResult result = Distance(p, q, x.pose);
-      ExpectSound(x, result);
-      const Verdict verdict = Collide(p, q, x.pose).verdict;
-      EXPECT_EQ(result.kind,
-                verdict == Verdict::kSeparate ? DistanceKind::kSeparate : DistanceKind::kMeet);
-      if (verdict == Verdict::kSeparate) ++separate;
-    }
+  for (const Placement& x : ExtremePlacements(/*seed=*/15, -2, 20)) {
+    const DistanceResult result = Distance(x.p, x.q, x.pose);
+    ExpectSound(x, result);
+    const Verdict verdict = Collide(x.p, x.q, x.pose).verdict;
+    EXPECT_EQ(result.kind,
+              verdict == Verdict::kSeparate ? DistanceKind::kSeparate : DistanceKind::kMeet);
+    if (verdict == Verdict::kSeparate) ++separate;
   }
   EXPECT_GT(separate, 40);
 }

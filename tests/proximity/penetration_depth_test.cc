@@ -188,30 +188,16 @@ TEST(PenetrationDepth, ScalesToTheBit) {
 }
 
 TEST(PenetrationDepth, ExtremesOfScale) {
-  const ConvexPolyhedron unit = MustBuild(Box({1, 1, 1}));
-  const ConvexPolyhedron huge = MustBuild(Box({1e100, 1e100, 1e100}));
-  const ConvexPolyhedron tiny = MustBuild(Box({1e-100, 1e-100, 1e-100}));
-  const ConvexPolyhedron needle = MustBuild(Box({1e6, 1, 1e-6}));
-  const ConvexPolyhedron blade = MustBuild(RoundBody(40, {1e6, 1, 1e-3}, 5));
-  const std::vector<std::pair<ConvexPolyhedron, ConvexPolyhedron>> pairs = {
-      {unit, huge}, {unit, tiny}, {huge, tiny}, {needle, needle}, {needle, blade}, {blade, blade}};
-  Random random(36);
   int overlaps = 0;
-  for (const auto& [p, q] : pairs) {
-    for (int i = 0; i < 40; ++i) {
-      const double reach = std::max(p.diameter_bound(), q.diameter_bound());
-      const double away = reach * std::ldexp(1.0, -random.Int(0, 40));
-      const Placement x{"extreme " + std::to_string(i), p, q,
-                        MustPose(random.Rotation(), std::min(away, 1e99) * random.Direction())};
-      const PenetrationResult result = PenetrationDepth(p, q, x.pose);
-      ExpectSound(x, result);
-      EXPECT_EQ(result.verdict, Collide(p, q, x.pose).verdict);
-      if (result.verdict != Verdict::kOverlap) continue;
-      ++overlaps;
-      EXPECT_TRUE(result.minimal);
-      EXPECT_NEAR(result.depth.value, DepthByBruteForce(p, q, x.pose),
-                  1e-11 * SizeOf(p, q, x.pose));
-    }
+  for (const Placement& x : ExtremePlacements(/*seed=*/36, 0, 40)) {
+    const PenetrationResult result = PenetrationDepth(x.p, x.q, x.pose);
+    ExpectSound(x, result);
+    EXPECT_EQ(result.verdict, Collide(x.p, x.q, x.pose).verdict);
+    if (result.verdict != Verdict::kOverlap) continue;
+    ++overlaps;
+    EXPECT_TRUE(result.minimal);
+    EXPECT_NEAR(result.depth.value, DepthByBruteForce(x.p, x.q, x.pose),
+                1e-11 * SizeOf(x.p, x.q, x.pose));
   }
   EXPECT_GT(overlaps, 60);
 }

@@ -11,29 +11,12 @@
 
 #include "touchstone/core/base/dyadic.h"
 #include "touchstone/tests/testing/random.h"
+#include "touchstone/tools/shapes/shape.h"
 
 namespace touchstone::testing {
 namespace {
 
 using Eigen::Vector3d;
-
-// Point i of k round the unit circle. The four quarters are turned copies of (1 - t^2, 2 t)/(1 +
-// t^2), 0 <= t < 1: no library function, so the same doubles everywhere.
-std::array<double, 2> OnCircle(int i, int k) {
-  const int quarter = 4 * i / k;
-  const double t = static_cast<double>(4 * i - quarter * k) / k;
-  const double x = (1 - t * t) / (1 + t * t), y = 2 * t / (1 + t * t);
-  switch (quarter) {
-    case 0:
-      return {x, y};
-    case 1:
-      return {-y, x};
-    case 2:
-      return {-x, -y};
-    default:
-      return {y, -x};
-  }
-}
 
 // Numbers vertices by their integer grid position, each position once.
 class GridVertices {
