@@ -265,24 +265,26 @@ TOUCHSTONE_INLINE void CompareBelts(const PlacedFeatureNode& x, const LaneBound&
 }
 
 // Bit i: whether lane i of X meets Y. Loops in a form that compilers know to put into lanes.
+template <bool kByBelts>
 TOUCHSTONE_INLINE std::uint64_t LanesThatMeet(const PlacedFeatureNode& x, const LaneBound& y) {
   Comparison lanes;
   CompareSpheresAndCones(x, y, &lanes);
   if (lanes.All() == 0) return 0;
   CompareHeights(x, y, &lanes);
   if (lanes.All() == 0) return 0;
-  CompareBelts(x, y, &lanes);
+  if (kByBelts) CompareBelts(x, y, &lanes);
   return lanes.All() & ((std::uint64_t{1} << x.lane_count) - 1);
 }
 
 // Byte j of the result is the mask of lanes of X that meet lane j of Y, for lanes in `lanes_of_y`.
+template <bool kByBelts>
 TOUCHSTONE_INLINE std::uint64_t MeetingLanesOf(const PlacedFeatureNode& x,
                                                const PlacedFeatureNode& y, unsigned lanes_of_y,
                                                double sense, const FeatureQuery& query) {
   std::uint64_t masks = 0;
   for (; lanes_of_y != 0; lanes_of_y &= lanes_of_y - 1) {
     const int j = std::countr_zero(lanes_of_y);
-    masks |= LanesThatMeet(x, LaneBound(y, j, sense, query)) << (8 * j);
+    masks |= LanesThatMeet<kByBelts>(x, LaneBound(y, j, sense, query)) << (8 * j);
   }
   return masks;
 }
@@ -292,16 +294,17 @@ void MeetingFeatures(const FeatureLanes& a, const FeatureLanes& b, const Feature
                      std::uint8_t masks[kWidth]) {
   unsigned lanes_of_b = b.lane < 0 ? (1u << b.node->lane_count) - 1 : 1u << b.lane;
   if (a.lane >= 0 || (b.lane < 0 && a.parent != nullptr)) {
-    // Lanes of B against one lane: A's own, or the one round it, which spares most of them.
+    // Lanes of B against one lane: A's own, or the one round it, which spares most of them. Belts
+    // were held against each other a step before, or will be in the next one.
     const PlacedFeatureNode& of_a = a.lane >= 0 ? *a.node : *a.parent;
     const int lane = a.lane >= 0 ? a.lane : a.node->parent_lane;
-    lanes_of_b &= MeetingLanesOf(*b.node, of_a, 1u << lane, -1.0, query) >> (8 * lane);
+    lanes_of_b &= MeetingLanesOf<false>(*b.node, of_a, 1u << lane, -1.0, query) >> (8 * lane);
   }
   if (a.lane >= 0) {
     for (int j = 0; j < kWidth; ++j) masks[j] = ((lanes_of_b >> j) & 1) << a.lane;
     return;
   }
-  const std::uint64_t all = MeetingLanesOf(*a.node, *b.node, lanes_of_b, 1.0, query);
+  const std::uint64_t all = MeetingLanesOf<true>(*a.node, *b.node, lanes_of_b, 1.0, query);
   for (int j = 0; j < kWidth; ++j) masks[j] = static_cast<std::uint8_t>(all >> (8 * j));
 }
 
