@@ -12,8 +12,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Of the ball in which ∂M is made, over the radius of the mean: room for the walk.
-constexpr double kBallRoom = 1.25;
+// Of the ball in which ∂M is made, over the radius of the mean: room to walk twice as far as last.
+constexpr double kLeastRoom = 0.05, kMostRoom = 0.25;
 // Radians to either side for differences.
 constexpr double kTurn = 0x1p-15;
 // Of the rate's size: what differences to either side may differ by, where third derivatives and
@@ -46,7 +46,8 @@ bool ContinuousSolver::Walk(Vector3d from, PhongPoint* found) {
   MeanProjectionOptions mean;
   mean.radius_ratio = options_.normal_radius;
   mean.least_radius = least_radius_;
-  double room = kBallRoom;
+  const Vector3d begin_at = from;
+  double room = 1.0 + std::clamp(2.0 * walked_, kLeastRoom, kMostRoom);
   for (int i = 0; i < options_.iteration_limit; ++i) {
     at_ = from;
     radius_ = room * std::max(mean.radius_ratio * from.norm(), mean.least_radius);
@@ -67,6 +68,7 @@ bool ContinuousSolver::Walk(Vector3d from, PhongPoint* found) {
       continue;
     }
     *found = projection.point;
+    walked_ = room * (found->position - begin_at).norm() / radius_;
     if (projection.status == MeanProjectionStatus::kFound) return true;
     if (found->residual < best_misfit_) {
       best_misfit_ = found->residual;

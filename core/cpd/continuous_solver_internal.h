@@ -119,6 +119,7 @@ class ContinuousSolver {
   std::vector<PhongPoint> points_;
   MeanNormals mean_normals_;
   double best_misfit_ = 0.0;
+  double walked_ = 1.0;  // by mean normals, last, over their radius
   Eigen::Vector3d best_at_ = Eigen::Vector3d::Zero();
   SumFacet best_facet_;
 };
