@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/tools/cpd_run.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/core/minkowski/local_sum.h"
 #include "touchstone/exact/judge_cpd.h"
+#include "touchstone/tools/bench/times.h"
 #include "touchstone/tools/numbers.h"
 #include "touchstone/tools/table.h"
 
@@ -25,22 +24,10 @@ double Since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-// Of this thread: other work on the machine does not count.
-double ProcessorMs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 struct Times {
   std::vector<double> ms;
 
-  double At(double part) const {
-    if (ms.empty()) return 0.0;
-    std::vector<double> sorted = ms;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
-  }
+  double At(double part) const { return Quantile(ms, part); }
   CpdBenchRow Row(const std::string& scene, const std::string& method) const {
     return {scene, method, At(0.5), At(0.99), static_cast<int>(ms.size()), 0, 0, 0, 0};
   }
@@ -291,48 +278,6 @@ PremiseRow MeasurePremise(const PaperScene& scene, int moments, int frames) {
           static_cast<int>(at_solutions.ms.size()),
           at_solutions.At(0.5),
           above(at_solutions)};
-}
-
-CpdProfile ProfileCpd(const PaperScene& scene, HeapMeter heap) {
-  CpdProfile profile;
-  profile.scene = scene.name;
-  const TriangleMesh a = MustBuild(scene.a), b = MustBuild(scene.b);
-  const double step = scene.AtTurn(0.1) - scene.AtTurn(0.0);
-  const long before = heap != nullptr ? heap().bytes : 0;
-  ContinuousPenetrationDepth solver(a, b);
-  for (int i = 0; i < 60; ++i) solver.Update(scene.PoseAt(0.3 + i * step));
-  if (heap != nullptr) profile.solver_mb = static_cast<double>(heap().bytes - before) * 1e-6;
-
-  const MeshPair pair(a, b, scene.PoseAt(0.3));
-  const ContactBody body_a(a), body_b(b);
-  const Vector3d q = MeshPenetrationDepth(pair, body_a, body_b).translation;
-  MembershipCache cache;
-  // Points along and round the way out: from well inside to well outside, and off the touch.
-  const auto median_us = [&](const auto& point_at, int repeats) {
-    Times times;
-    for (int i = 0; i < 200; ++i) {
-      const Vector3d x = point_at(i);
-      // By the clock: to ask for the processor's own time takes longer than some of these. What is
-      // interrupted does not move the median.
-      if (repeats == 1) cache.crossing = {};
-      const auto begin = std::chrono::steady_clock::now();
-      for (int k = 0; k < repeats; ++k) Membership(pair, x, {Certainty::kFloat}, &cache);
-      const std::chrono::duration<double, std::micro> spent =
-          std::chrono::steady_clock::now() - begin;
-      times.ms.push_back(spent.count() / repeats);
-    }
-    return times.At(0.5);
-  };
-  const auto wobble = [&](int i) {
-    return Vector3d(1e-2 * q.norm() * Vector3d(std::sin(i), std::cos(2.0 * i), std::sin(3.0 * i)));
-  };
-  profile.overlapping_us = median_us([&](int i) { return Vector3d(0.3 * q + wobble(i)); }, 1);
-  profile.separate_us = median_us(
-      [&](int i) { return Vector3d(q + 0.1 * kPaperSumRadius * q.normalized() + wobble(i)); }, 1);
-  profile.near_touch_us =
-      median_us([&](int i) { return Vector3d(q * (1.0 + (i % 2 == 0 ? 1e-7 : -1e-7))); }, 1);
-  profile.witness_ns = 1e3 * median_us([&](int i) { return Vector3d(0.3 * q + wobble(i)); }, 1000);
-  return profile;
 }
 
 namespace {

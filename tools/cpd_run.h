@@ -15,7 +15,6 @@
 #include "touchstone/core/cpd/contact_space_projection.h"
 #include "touchstone/core/cpd/continuous_penetration_depth.h"
 #include "touchstone/core/cpd/mesh_penetration_depth.h"
-#include "touchstone/tools/bench/heap_use.h"
 #include "touchstone/tools/shapes/paper_scenes.h"
 
 namespace touchstone {
@@ -85,14 +84,6 @@ struct PremiseRow {
   double solutions_median_deg = 0.0, solutions_above_10 = 0.0;
 };
 PremiseRow MeasurePremise(const PaperScene& scene, int moments, int frames);
-
-// What a solver of a scene holds, and what membership costs there: medians.
-struct CpdProfile {
-  std::string scene;
-  double solver_mb = 0.0;  // as the heap has it, after some frames; 0 without a meter
-  double overlapping_us = 0.0, separate_us = 0.0, near_touch_us = 0.0, witness_ns = 0.0;
-};
-CpdProfile ProfileCpd(const PaperScene& scene, HeapMeter heap);
 
 // What the exact half finds wrong with a depth; empty when it stands.
 std::vector<std::string> JudgedMeshDepth(const TriangleMesh& a, const TriangleMesh& b,

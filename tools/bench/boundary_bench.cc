@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "touchstone/core/minkowski/boundary.h"
 #include "touchstone/exact/judge_minkowski.h"
 #include "touchstone/exact/nef_mesh_sum.h"
+#include "touchstone/tools/bench/times.h"
 #include "touchstone/tools/mesh_io.h"
 #include "touchstone/tools/shapes/paper_scenes.h"
 #include "touchstone/tools/shapes/shapes.h"
@@ -27,13 +27,6 @@ namespace touchstone {
 namespace {
 
 using Eigen::Vector3d;
-
-double ProcessorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-double Quantile(std::vector<double> values, double part) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
-}
 
 // One scene at the same rotations time and again.
 class TimedScene {

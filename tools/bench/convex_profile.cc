@@ -7,6 +7,7 @@
 
 #include "touchstone/core/cd_dual/cd_dual.h"
 #include "touchstone/core/proximity/penetration_depth.h"
+#include "touchstone/tools/bench/times.h"
 #include "touchstone/tools/bench/workload.h"
 
 namespace touchstone {
@@ -29,13 +30,6 @@ double ClockNs() {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 1000; ++i) least = std::min(least, NsSince(Clock::now()));
   return least;
-}
-
-double Quantile(std::vector<double> values, double q) {
-  const auto index = static_cast<std::size_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(index),
-                   values.end());
-  return values[index];
 }
 
 ColdTail MeasureTail(const Workload& workload, int n, double gap, double clock_ns) {

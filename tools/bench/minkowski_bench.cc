@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <fstream>
 #include <limits>
 #include <optional>
 
 #include "touchstone/core/mesh/membership.h"
 #include "touchstone/exact/mesh_membership.h"
+#include "touchstone/tools/bench/times.h"
 #include "touchstone/tools/numbers.h"
 #include "touchstone/tools/shapes/paper_scenes.h"
 #include "touchstone/tools/shapes/shapes.h"
@@ -28,18 +28,6 @@ constexpr double kFirstTurnDeg = 30.0;
 constexpr double kDepthRatio = 0.3;  // of CPD's ball
 // Corners are rounded to 1e-13 of the sum's size or so.
 constexpr double kTolerance = 1e-9 * kPaperSumRadius;
-
-// Of the process, so that others on the machine count less.
-double ProcessorMs() {
-  return 1e3 * static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
-}
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Where the ray from zero leaves M.
 Vector3d ExitPoint(const MeshPair& pair) {
@@ -113,7 +101,7 @@ class SceneBench {
     }
     for (int k = 0; k < 4; ++k) {
       rows->push_back({scene_.name + (with_depth_ball ? "-depth" : ""), kBuilders[k], rotation_deg,
-                       Median(timings_[k].ms), static_cast<int>(Median(timings_[k].facets)),
+                       Quantile(timings_[k].ms, 0.5), static_cast<int>(Quantile(timings_[k].facets, 0.5)),
                        timings_[k].mismatches});
     }
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "touchstone/tools/bench/scene_bench.h"
 
-#include <time.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "touchstone/core/cd_dual/cd_dual.h"
+#include "touchstone/tools/bench/times.h"
 #include "touchstone/tools/engines/world.h"
 #include "touchstone/tools/suites/random.h"
 #include "touchstone/tools/suites/shapes.h"
@@ -84,9 +83,7 @@ double Seconds(bool wall) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
   }
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return ProcessorSeconds();
 }
 
 struct Plan {

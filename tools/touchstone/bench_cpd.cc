@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "touchstone/tools/bench/machine.h"
+#include "touchstone/tools/cpd_profile.h"
 #include "touchstone/tools/cpd_run.h"
 #include "touchstone/tools/result_json.h"
 #include "touchstone/tools/table.h"
@@ -63,6 +64,17 @@ void PrintProfile(const CpdArguments& arguments) {
                Fixed(row.separate_us, 2), Fixed(row.near_touch_us, 2), Fixed(row.witness_ns, 0)});
   }
   table.Print(std::cout);
+  if (!arguments.scene.empty()) return;
+  Table growth;
+  growth.Row({"tori, faces", "contact body ms", "depth cold ms", "coherent at 0.1 ms"});
+  for (const int faces : {2000, 8000, 32000, 128000}) {
+    if (arguments.quick && faces > 8000) continue;
+    const DepthGrowthRow row = MeasureDepthGrowth(faces);
+    growth.Row({std::to_string(row.faces), Fixed(row.body_ms, 1), Fixed(row.cold_ms, 3),
+                Fixed(row.coherent_ms, 3)});
+  }
+  std::cout << '\n';
+  growth.Print(std::cout);
 }
 
 int RunCpdBench(const CpdArguments& arguments) {
