@@ -122,7 +122,8 @@ void AddBenchCpd(CLI::App& bench, int& exit_code) {
   command->add_option("--frames", arguments->frames, "frames of each motion");
   command->add_option("--markdown", arguments->markdown, "folder for the table as bench-cpd.md");
   command->add_flag("--profile", arguments->profile,
-                    "instead: what a solver holds, and what membership costs");
+                    "instead: what a solver holds, what membership costs, and how depths grow with "
+                    "the faces of tori");
   command->add_flag("--json", arguments->json, "print JSON: an array of rows");
   command->callback([arguments, &exit_code] { exit_code = RunCpdBench(*arguments); });
 }
