@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 TEST(CpdCommand, PairIsJudged) {
   const ProgramRun run = RunProgram(
@@ -48,6 +49,18 @@ TEST(CpdCommand, BenchRows) {
          {"scene", "method", "median_ms", "p99_ms", "frames", "events", "jumps", "findings"}) {
       EXPECT_TRUE(row.contains(key)) << key;
     }
+  }
+}
+
+TEST(CpdCommand, BenchProfile) {
+  const ProgramRun one = RunProgram("bench cpd --profile --quick --scene fish-torus");
+  ASSERT_EQ(one.exit_code, 0) << one.out << one.err;
+  EXPECT_THAT(one.out, HasSubstr("fish-torus"));
+  EXPECT_THAT(one.out, Not(HasSubstr("tori")));
+  const ProgramRun all = RunProgram("bench cpd --profile --quick");
+  ASSERT_EQ(all.exit_code, 0) << all.out << all.err;
+  for (const char* word : {"cone-axes", "torus-torus", "contact body ms", "\n2000", "\n8000"}) {
+    EXPECT_THAT(all.out, HasSubstr(word));
   }
 }
 
