@@ -13,6 +13,7 @@ namespace touchstone::internal {
 namespace {
 
 constexpr double kBallShrink = 1.0 - 4e-6;
+constexpr double kNew = 1.0 - 0x1p-6;   // of a ball's radius: that much no other may hold
 constexpr double kGoodDepth = 0x1p-14;  // of a point in a prism that is worth cutting by
 constexpr int kEnough = 8;              // such prisms at a point
 
@@ -47,6 +48,8 @@ void DepthSearcher::AddBall(const Vector3d* x, int face_a, int face_b) {
   const double radius = kBallShrink * scale * (p.radius + q.radius) - 0x1p-46;
   if (!(radius > 0.0)) return;
   if (x != nullptr && (*x - centre).norm() >= radius) return;
+  // Faces beside each other mostly share theirs.
+  if (s_.balls.Holds(centre, kNew * radius)) return;
   ++result_.balls;
   s_.balls.Add({centre, radius});
   s_.met_balls.emplace_back(face_a, face_b);
