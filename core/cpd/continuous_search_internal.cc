@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "touchstone/core/cpd/continuous_solver_internal.h"
-#include "touchstone/core/mesh/nearest_on_triangle_internal.h"
+#include "touchstone/core/mesh/nearest_on_triangle.h"
 
 namespace touchstone::internal {
 namespace {

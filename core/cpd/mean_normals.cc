@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "touchstone/core/mesh/nearest_on_triangle_internal.h"
+#include "touchstone/core/mesh/nearest_on_triangle.h"
 
 namespace touchstone {
 namespace {
@@ -235,7 +235,7 @@ class MeanWalk {
       const auto& [a, b, c] = surface_.triangles[t];
       const Vector3d &p = surface_.vertices[a], &q = surface_.vertices[b],
                      &r = surface_.vertices[c];
-      const Vector3d y = internal::NearestOnTriangle(x, p, q, r);
+      const Vector3d y = NearestOnTriangle(x, p, q, r);
       const double distance = (y - x).squaredNorm();
       if (!(distance < least)) continue;
       least = distance;

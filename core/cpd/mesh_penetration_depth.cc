@@ -9,7 +9,7 @@
 #include "touchstone/core/cpd/contact_name_internal.h"
 #include "touchstone/core/cpd/depth_search_internal.h"
 #include "touchstone/core/mesh/membership.h"
-#include "touchstone/core/mesh/nearest_on_triangle_internal.h"
+#include "touchstone/core/mesh/nearest_on_triangle.h"
 #include "touchstone/core/minkowski/local_sum.h"
 
 namespace touchstone {
@@ -147,7 +147,7 @@ void DecideByBoundary(const MeshPair& pair, MeshDepthResult* result) {
   Vector3d nearest = result->translation;
   SumFacet facet{SumFacetKind::kFaceVertex, false, -1, -1};
   const auto nearest_on = [&at = sum.vertices](int a, int b, int c) {
-    return internal::NearestOnTriangle(Vector3d::Zero(), at[a], at[b], at[c]);
+    return NearestOnTriangle(Vector3d::Zero(), at[a], at[b], at[c]);
   };
   const auto take = [&](const Vector3d& x, int number) {
     if (!(x.squaredNorm() < nearest.squaredNorm())) return;

@@ -10,7 +10,7 @@
 #include "touchstone/core/base/relative_pose.h"
 #include "touchstone/core/base/vector_clones.h"
 #include "touchstone/core/mesh/mesh_pair.h"
-#include "touchstone/core/mesh/nearest_on_triangle_internal.h"
+#include "touchstone/core/mesh/nearest_on_triangle.h"
 #include "touchstone/core/mesh/point_in_mesh_internal.h"
 
 namespace touchstone {
@@ -120,8 +120,8 @@ class BallFinder {
         const Triangle& corners = placed_.mesh.face(~child);
         const Vector3d& corner = placed_.points[corners[0]];
         if (IsPlaneBeyond(placed_.planes[~child], p - corner, least)) continue;
-        const Vector3d at = internal::NearestOnTriangle(p, corner, placed_.points[corners[1]],
-                                                        placed_.points[corners[2]]);
+        const Vector3d at =
+            NearestOnTriangle(p, corner, placed_.points[corners[1]], placed_.points[corners[2]]);
         const double distance = (at - p).squaredNorm();
         if (distance >= least) continue;
         found = std::sqrt(distance);

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "touchstone/core/mesh/mesh_pair.h"
-#include "touchstone/core/mesh/nearest_on_triangle_internal.h"
+#include "touchstone/core/mesh/nearest_on_triangle.h"
 #include "touchstone/core/mesh/point_in_mesh_internal.h"
 #include "touchstone/tools/shapes/shape.h"
 #include "touchstone/tools/shapes/shapes.h"
@@ -29,8 +29,8 @@ double DistanceToSurface(const TriangleMesh& mesh, const Vector3d& x) {
   double least = std::numeric_limits<double>::infinity();
   for (int f = 0; f < mesh.face_count(); ++f) {
     const Triangle& corners = mesh.face(f);
-    const Vector3d at = internal::NearestOnTriangle(
-        x, mesh.vertex(corners[0]), mesh.vertex(corners[1]), mesh.vertex(corners[2]));
+    const Vector3d at = NearestOnTriangle(x, mesh.vertex(corners[0]), mesh.vertex(corners[1]),
+                                          mesh.vertex(corners[2]));
     least = std::min(least, (at - x).norm());
   }
   return least;

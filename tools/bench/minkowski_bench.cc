@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "touchstone/core/mesh/membership.h"
+#include "touchstone/core/mesh/nearest_on_triangle.h"
 #include "touchstone/exact/mesh_membership.h"
 #include "touchstone/tools/bench/times.h"
 #include "touchstone/tools/numbers.h"
@@ -41,24 +42,6 @@ Vector3d ExitPoint(const MeshPair& pair) {
   return low * direction;
 }
 
-Vector3d NearestOnTriangle(const Vector3d& x, const std::array<Vector3d, 3>& t) {
-  const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
-  Vector3d nearest = x - normal.dot(x - t[0]) * normal;
-  bool is_within = true;
-  for (int k = 0; k < 3; ++k) {
-    is_within &= normal.cross(t[(k + 1) % 3] - t[k]).dot(x - t[k]) >= 0.0;
-  }
-  if (is_within) return nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    const Vector3d edge = t[(k + 1) % 3] - t[k];
-    const double along = std::clamp((x - t[k]).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    const Vector3d foot = t[k] + along * edge;
-    if ((x - foot).norm() < least) least = (x - foot).norm(), nearest = foot;
-  }
-  return nearest;
-}
-
 std::array<Vector3d, 3> CornersOf(const LocalSum& sum, std::size_t t) {
   const auto& [a, b, c] = sum.triangles[t];
   return {sum.vertices[a], sum.vertices[b], sum.vertices[c]};
@@ -70,7 +53,8 @@ Ball DepthBall(LocalMinkowskiSum* whole, const RelativePose& pose) {
   Ball ball;
   double depth = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < sum.triangles.size(); ++t) {
-    const Vector3d x = NearestOnTriangle(Vector3d::Zero(), CornersOf(sum, t));
+    const auto [a, b, c] = CornersOf(sum, t);
+    const Vector3d x = NearestOnTriangle(Vector3d::Zero(), a, b, c);
     if (x.norm() < depth) depth = x.norm(), ball.center = x;
   }
   ball.radius = kDepthRatio * depth;
@@ -101,7 +85,8 @@ class SceneBench {
     }
     for (int k = 0; k < 4; ++k) {
       rows->push_back({scene_.name + (with_depth_ball ? "-depth" : ""), kBuilders[k], rotation_deg,
-                       Quantile(timings_[k].ms, 0.5), static_cast<int>(Quantile(timings_[k].facets, 0.5)),
+                       Quantile(timings_[k].ms, 0.5),
+                       static_cast<int>(Quantile(timings_[k].facets, 0.5)),
                        timings_[k].mismatches});
     }
   }

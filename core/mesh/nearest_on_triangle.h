@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#ifndef TOUCHSTONE_CORE_MESH_NEAREST_ON_TRIANGLE_INTERNAL_H_
-#define TOUCHSTONE_CORE_MESH_NEAREST_ON_TRIANGLE_INTERNAL_H_
+#ifndef TOUCHSTONE_CORE_MESH_NEAREST_ON_TRIANGLE_H_
+#define TOUCHSTONE_CORE_MESH_NEAREST_ON_TRIANGLE_H_
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
-namespace touchstone::internal {
+namespace touchstone {
 
 // The point of the closed triangle nearest to p, up to rounding; of a flat one, of its sides.
 inline Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
@@ -36,6 +36,6 @@ inline Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& p, const Eigen::
   return nearest;
 }
 
-}  // namespace touchstone::internal
+}  // namespace touchstone
 
-#endif  // TOUCHSTONE_CORE_MESH_NEAREST_ON_TRIANGLE_INTERNAL_H_
+#endif  // TOUCHSTONE_CORE_MESH_NEAREST_ON_TRIANGLE_H_
