@@ -353,7 +353,7 @@ TEST(MeshPenetrationDepth, PaperScenesAgainstWholeBoundaries) {
   for (const PaperScene& scene : AllPaperScenes()) {
     const DepthBodies bodies(scene.a, scene.b);
     MeshDepthCache cache;
-    for (const double s : {0.03, 0.27, 0.28, 0.61, 0.98}) {
+    for (const double s : {0.03, 0.27, 0.61}) {
       const RelativePose pose = scene.PoseAt(s);
       const MeshDepthResult result = bodies.Depth(pose, {}, &cache);
       ExpectSound(bodies.At(pose), result);
