@@ -59,18 +59,19 @@ CpdProfile ProfileCpd(const PaperScene& scene, HeapMeter heap) {
 
 DepthGrowthRow MeasureDepthGrowth(int faces) {
   constexpr int kMoments = 20;
-  PaperScene scene = *FindPaperScene("torus-torus");
+  const PaperScene& scene = *FindPaperScene("torus-torus");
+  // The scene's tori are the shape at 2000 faces, scaled.
   const double scale = scene.a.vertices[0].norm() / NamedShape("torus", 2000).vertices[0].norm();
   const TriangleMesh mesh = MustBuild(Moved(NamedShape("torus", faces), scale, Vector3d::Zero()));
   DepthGrowthRow row{mesh.face_count(), 0.0, 0.0, 0.0};
-  double begin = ProcessorMs();
+  const double before = ProcessorMs();
   const ContactBody body(mesh);
-  row.body_ms = ProcessorMs() - begin;
+  row.body_ms = ProcessorMs() - before;
   MeshPair pair(mesh, mesh, scene.PoseAt(0.0));
   MeshDepthCache cache;
   const auto timed_at = [&](double s) {
     pair.Place(scene.PoseAt(s));
-    begin = ProcessorMs();
+    const double begin = ProcessorMs();
     MeshPenetrationDepth(pair, body, body, {}, &cache);
     return ProcessorMs() - begin;
   };

@@ -29,7 +29,7 @@ class ContactBody {
   const TriangleMesh& mesh() const { return data_->mesh; }
   const GaussMap& gauss_map() const { return data_->gauss_map; }
   const Edge& edge(int e) const { return data_->edges[e]; }
-  // A ball within the body that touches face f near its middle; radius 0: none.
+  // A ball within the body that comes near the middle of face f; radius 0: none.
   const InnerBall& ball(int f) const { return data_->balls[f]; }
 
   const FeatureTree& faces() const { return data_->faces; }

@@ -35,7 +35,7 @@ constexpr double kGuess = 1.25;
 constexpr double kSameWay = 0.9;
 
 // A nearest point is looked for no closer than this: round the middle of a tube all of a ring is
-// equally near, and need not be gone through. (Of the paper's tori, 2000 faces, a quarter is.)
+// equally near, and need not be gone through.
 constexpr double kNearEnough = 1.0 - 0x1p-6;
 
 // Of the lanes' boxes from p.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "touchstone/tools/bench/times.h"
 #include "touchstone/tools/bench/workload.h"
 
 namespace touchstone {
@@ -23,13 +24,6 @@ constexpr int kTurns = 3;
 constexpr double kLongestBatchNs = 1e6;
 constexpr int kMixedBatch = 32;
 constexpr double kDegrees = 0.1, kDegreesFast = 1.0;
-
-double Median(std::vector<double>& samples) {
-  if (samples.empty()) return 0.0;
-  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-  std::nth_element(samples.begin(), middle, samples.end());
-  return *middle;
-}
 
 double NsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
@@ -225,7 +219,7 @@ void RunCell(const ConvexBenchOptions& options, const ConvexBenchCell& cell,
     row.n = cell.n;
     row.gap = gap;
     row.mode = mode;
-    row.median_ns = Median(lane.samples);
+    row.median_ns = Quantile(lane.samples, 0.5);
     for (std::size_t i = 0; i < lane.answers.size(); ++i) {
       ++row.queries;
       if (lane.answers[i] == Verdict::kUndecided) ++row.undecided;
