@@ -19,8 +19,8 @@ struct InnerBall {
 
 // For every face a large ball that lies within the solid and comes near the face's middle from
 // inside, within some thirtieth of its radius, in the body's own frame: proven to lie there,
-// whatever was rounded on the way. A ball that cannot be proven is left out. Faces beside each other may share
-// one.
+// whatever was rounded on the way. A ball that cannot be proven is left out. Faces beside each
+// other may share one.
 //
 // The ball begins large and shrinks onto a near point of the surface until nothing is inside it but
 // near its rim (Ma, Bae, Choi, "3D medial axis point approximation using nearest neighbors and the
